@@ -1,0 +1,57 @@
+#pragma once
+/// Binary messages of PROTOCOL.md section 4: records <-> bytes.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/grid_codec.h"
+
+namespace weft::protocol {
+
+inline constexpr std::size_t kHeaderBytes = 64;
+inline constexpr std::uint8_t kClothRecord = 1, kBallsRecord = 2;
+inline constexpr std::uint16_t kFlagLast = 1, kFlagPaused = 2, kFlagSlow = 4;
+
+/// What all records of one message share.
+struct FrameStamp {
+  std::uint32_t frame = 0;      ///< steps since the epoch began
+  std::uint32_t epoch = 0;
+  double time = 0;              ///< simulated, s
+  std::uint32_t server_ms = 0;
+  std::uint16_t flags = 0;      ///< without kFlagLast
+};
+
+struct FrameBall {
+  std::uint32_t id = 0;
+  std::array<float, 3> position{};
+  float radius = 0;
+  bool dynamic = false;
+  bool operator==(const FrameBall&) const = default;
+};
+
+/// One cloth's record, last or not: encoded once a level and shared by all viewers of that level.
+std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
+                                              int simulated_level, int bits, const GridView& grid);
+std::vector<std::uint8_t> encode_balls_record(const FrameStamp& stamp, std::span<const FrameBall> balls);
+/// Sets kFlagLast in the record that starts at `offset`.
+void mark_last(std::vector<std::uint8_t>& message, std::size_t offset);
+
+struct ClothRecord {
+  std::uint32_t cloth = 0;
+  int level = 0, simulated_level = 0;
+  int rows = 0, cols = 0;
+  Quantisation quantisation;
+  std::vector<float> positions;  ///< x, y, z interleaved, row by row, m
+};
+
+struct Frame {
+  FrameStamp stamp;
+  std::vector<ClothRecord> cloths;
+  std::vector<FrameBall> balls;
+};
+
+/// Decodes one binary message. False, with a reason in `error`, on anything malformed.
+bool decode_frame(std::span<const std::uint8_t> message, Frame& frame, std::string& error);
+
+}  // namespace weft::protocol

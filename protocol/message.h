@@ -1,0 +1,106 @@
+#pragma once
+/// Control messages of PROTOCOL.md sections 2 and 3: JSON text <-> values.
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace weft::protocol {
+
+inline constexpr const char* kSubprotocol = "weft.v1";
+inline constexpr std::array<const char*, 1> kCapabilities{"flow.ack"};
+
+using Vector = std::array<double, 3>;
+
+/// Section 6, with its defaults.
+struct Limits {
+  std::size_t message_bytes = 16384;
+  int json_depth = 16;
+  int messages_per_second = 120;
+  int balls = 64;
+  int viewers = 256;
+  std::size_t frame_bytes = 1048576;
+};
+
+struct Hello {
+  std::string client;
+  std::vector<std::string> caps;
+  int window = 2;
+};
+struct SceneList {};
+struct SceneJoin {
+  std::string scene;
+};
+struct Camera {
+  std::optional<double> distance;  ///< exactly one of the two
+  std::optional<Vector> eye;
+};
+struct Ack {
+  std::uint32_t frame = 0;
+};
+struct BallAdd {
+  Vector position{};
+  double radius = 0;
+  Vector velocity{};
+  bool dynamic = false;
+  double mass = 1;
+};
+struct BallMove {
+  std::uint32_t ball = 0;
+  Vector position{};
+};
+struct BallThrow {
+  std::uint32_t ball = 0;
+  Vector velocity{};
+};
+struct BallRemove {
+  std::uint32_t ball = 0;
+};
+struct WindSet {
+  Vector direction{};  ///< unit length after parsing
+  double speed = 0;
+};
+struct Pause {};
+struct Resume {};
+struct Reset {};
+struct Step {
+  int count = 1;
+};
+struct Ping {
+  double t = 0;
+};
+
+using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove, WindSet,
+                             Pause, Resume, Reset, Step, Ping>;
+
+struct Request {
+  std::optional<std::int64_t> id;
+  Command command;
+};
+
+/// Why a message was refused. `path` is a JSON pointer, `message` names field, value and allowed range.
+struct Error {
+  std::optional<std::int64_t> re;  ///< the request's id, where it could be read
+  std::string code, path, message;
+};
+
+/// Reads one client message. Depth is limited before a tree is built; duplicate keys, unknown members, wrong types,
+/// missing, non-finite and out-of-range values are errors. Never throws.
+std::variant<Request, Error> parse_request(std::string_view text, const Limits& limits = {});
+
+/// A client message as JSON text, the inverse of parse_request: for clients written in C++.
+std::string to_text(const Request& request);
+
+// Server messages. `extra` members are merged into the object.
+std::string ok_text(std::int64_t re, std::uint64_t frame, const nlohmann::json& extra = nlohmann::json::object());
+std::string error_text(const Error& error);
+std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time);
+std::string welcome_text(std::string_view server_version, const Limits& limits);
+std::string event_text(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
+std::string notice_text(std::string_view code, std::string_view message);
+
+}  // namespace weft::protocol

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cloth/description.h"
+
+namespace weft {
+
+using BallId = std::uint32_t;
+
+/// A ball as it is now. During a step it moves on a straight line from `start` to `position`.
+struct Ball {
+  BallId id = 0;
+  BallDescription::Motion motion = BallDescription::Motion::kinematic;
+  double radius = 0;       ///< m
+  double mass = 0;         ///< kg, dynamic only
+  Vec3 position{0, 0, 0};  ///< at the end of the step, m
+  Vec3 start{0, 0, 0};     ///< at its start, m
+  Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s: what the cloth feels
+  Vec3 impulse{0, 0, 0};   ///< given by the cloths during the step, N s; taken up when the step ends
+  std::vector<Waypoint> path;
+
+  /// Centre at `fraction` (0..1) of the step.
+  Vec3 at(double fraction) const { return start + fraction * (position - start); }
+};
+
+/// The scene's balls. Ids count up from 1 and are never used again until a reset.
+class Colliders {
+ public:
+  Colliders() = default;
+  explicit Colliders(const std::vector<BallDescription>& balls);
+
+  const std::vector<Ball>& balls() const { return balls_; }
+  std::vector<Ball>& balls() { return balls_; }
+  const Ball* find(BallId id) const;
+
+  BallId add(const BallDescription& ball);
+  /// The ball becomes kinematic, goes to `target` within the next step and stays there. False if there is no such ball.
+  bool move(BallId id, const Vec3& target);
+  /// The ball becomes dynamic and flies off. False if there is no such ball.
+  bool throw_ball(BallId id, const Vec3& velocity);
+  bool remove(BallId id);
+
+  /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its velocity.
+  void begin_step(double time, double dt, const Vec3& gravity);
+  /// Dynamic balls take up the impulses the cloths gave them.
+  void end_step();
+
+ private:
+  struct Target {
+    BallId id;
+    Vec3 position;
+  };
+  std::vector<Ball> balls_;
+  std::vector<Target> targets_;
+  BallId next_id_ = 1;
+};
+
+}  // namespace weft

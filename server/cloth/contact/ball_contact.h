@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+
+#include "cloth/contact/broad_phase.h"
+
+namespace weft {
+
+/// Counted since the cloth was made: shows that tiles far from the balls are never looked at.
+struct ContactCounters {
+  std::uint64_t tiles_examined = 0;  ///< tiles whose nodes were tested against a ball
+  std::uint64_t nodes_tested = 0;
+  std::uint64_t nodes_in_contact = 0;  ///< node-ball contacts resolved
+};
+
+/// The paper's section 2.4, second half: in the struck tiles a particle inside a ball is pushed back to its surface and
+/// loses the part of its velocity, relative to the ball, that points into it. A particle at the very centre leaves
+/// upwards. Pinned nodes stay. The momentum taken is given to dynamic balls (Ball::impulse).
+template <class Real>
+class BallContact {
+ public:
+  explicit BallContact(const Grid& grid) : broad_phase_(grid) {}
+
+  /// Resolves contacts for a substep that ends at fraction `to` of the step and began at `from`.
+  /// Returns the number of nodes in contact in this call.
+  int resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to);
+
+  const ContactCounters& counters() const { return counters_; }
+  const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
+
+ private:
+  BroadPhase<Real> broad_phase_;
+  ContactCounters counters_;
+};
+
+extern template class BallContact<float>;
+extern template class BallContact<double>;
+
+}  // namespace weft

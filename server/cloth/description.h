@@ -1,0 +1,119 @@
+#pragma once
+/// What a simulation is made from: plain values, checked by whoever fills them (server/scene for files).
+/// Field names equal the names in scene files.
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cloth/grid.h"
+#include "cloth/level_policy.h"
+#include "cloth/material.h"
+#include "cloth/vec3.h"
+
+namespace weft {
+
+// --- Effects: only those listed in a simulation are built and cost anything (D5) ---
+
+/// Eq. 2: F = m g.
+struct GravityEffect {
+  Vec3 acceleration = standard_gravity();  ///< m/s2
+  static constexpr const char* kName = "gravity";
+};
+
+/// Eq. 3: F = -k v, with each cloth's own Material::damping.
+struct DampingEffect {
+  static constexpr const char* kName = "damping";
+};
+
+/// Eq. 4: F = lambda N on every particle. N is the wind's direction; the force grows linearly with the wind's
+/// speed and is Eq. 4 exactly at 1 m/s, which is what the paper's presets have.
+struct PaperWindEffect {
+  double factor = 1.0;   ///< lambda, N at 1 m/s: per particle (paper) or per m2 (continuum); finite, >= 0
+  bool along_normal = false;  ///< true reads "unit normal vector" as the cloth's: N is the surface normal, turned downwind
+  static constexpr const char* kName = "paper_wind";
+};
+
+/// Pressure of moving air on a face: F/A = 1/2 rho C |w_n| w_n n with w = wind - velocity, w_n = w . n (flat plate).
+/// A sheet falling face on reaches sqrt(2 rho_cloth g / (rho C)), T16 in the truths.
+struct AerodynamicsEffect {
+  double air_density = 1.225;  ///< kg/m3
+  double drag = 1.2;           ///< C, dimensionless
+  static constexpr const char* kName = "aerodynamics";
+};
+
+using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect>;
+
+// --- Things in the scene ---
+
+/// The scene's wind, read by paper_wind and aerodynamics.
+struct Wind {
+  Vec3 direction{0.0, 0.0, -1.0};  ///< unit
+  double speed = 0.0;              ///< m/s, >= 0
+  Vec3 velocity() const { return speed * direction; }
+};
+
+/// Nodes held where they are: all with u, v inside the closed rectangle, or the nearest one if there is none.
+/// (0, 0) is the top left corner, (1, 1) the bottom right one.
+struct PinRegion {
+  double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< in [0, 1]
+};
+
+struct ClothDescription {
+  std::string name = "cloth";
+  Vec2 size{2.0, 2.0};  ///< width (along u) and height (along v), m; > 0
+  BaseCells base_cells;
+  /// The cloth lies in its local x-y plane, centred, u along +x, v along -y (it hangs), face normal +z.
+  Vec3 position{0.0, 0.0, 0.0};                       ///< of the centre, m
+  Quaternion orientation = Quaternion::Identity();    ///< local to world
+  std::vector<Vec3> nodes;  ///< start positions at initial_level, row by row, instead of the flat sheet; empty: flat.
+                            ///< Rest lengths always come from `size`.
+  Vec3 velocity{0.0, 0.0, 0.0};  ///< of every free node at the start, m/s
+  double perturbation = 0.0;     ///< random offset of each free node along the normal at the start, up to this, m
+  int min_level = 4, max_level = 6, initial_level = 6;
+  Material material;
+  Discretization discretization = Discretization::continuum;
+  std::vector<PinRegion> pins;
+};
+
+/// A point the ball passes at a time; linear between points, at rest before the first and after the last.
+struct Waypoint {
+  double time = 0.0;  ///< s, ascending
+  Vec3 position{0.0, 0.0, 0.0};
+};
+
+struct BallDescription {
+  enum class Motion {
+    kinematic,  ///< goes where it is told (velocity, path, commands); the cloth yields
+    dynamic,    ///< falls under the scene's gravity, is slowed by the cloth
+  };
+  Vec3 position{0.0, 0.0, 0.0};
+  double radius = 0.2;  ///< m, > 0
+  Vec3 velocity{0.0, 0.0, 0.0};
+  Motion motion = Motion::kinematic;
+  double mass = 1.0;           ///< kg, > 0, dynamic balls only
+  std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
+};
+
+// --- How it is stepped ---
+
+/// The paper's explicit method, Eq. 6.
+struct SymplecticEulerDescription {
+  int substeps = 0;       ///< per step; 0 chooses the fewest that keep the stiffest mode stable
+  double safety = 0.9;    ///< with substeps = 0: share of the stability limit used, (0, 1]
+  static constexpr const char* kName = "symplectic_euler";
+};
+using IntegratorDescription = std::variant<SymplecticEulerDescription>;
+
+struct SimulationDescription {
+  std::vector<ClothDescription> cloths;
+  std::vector<BallDescription> balls;
+  std::vector<EffectDescription> effects;
+  Wind wind;
+  IntegratorDescription integrator;
+  double time_step = 1.0 / 60.0;  ///< s
+  LevelPolicy level_policy;
+  std::uint64_t seed = 1;
+};
+
+}  // namespace weft

@@ -1,0 +1,37 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "cloth/description.h"
+#include "cloth/particles.h"
+
+namespace weft {
+
+/// What an effect may read beside the particles.
+struct EffectContext {
+  const ClothDescription* cloth = nullptr;
+  const Wind* wind = nullptr;
+  double time = 0;  ///< s
+};
+
+/// Something a scene asks to be simulated: adds its force for a whole cloth at once, no call per particle.
+template <class Real>
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual const char* name() const = 0;
+  /// Adds this effect's force on every node, N.
+  virtual void add_forces(const Particles<Real>& particles, const EffectContext& context,
+                          VectorField<Real>& force) const = 0;
+  /// Largest damping rate -dF/dv / m of any node, 1/s: what an explicit step must respect. 0 for forces without v.
+  virtual double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const;
+};
+
+/// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
+template <class Real>
+std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
+
+/// The scene's gravity, m/s2: the sum of its gravity effects, zero without one. Balls fall by it too.
+Vec3 total_gravity(const std::vector<EffectDescription>& descriptions);
+
+}  // namespace weft

@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+
+#include "cloth/contact/ball_contact.h"
+#include "cloth/effects/effect.h"
+#include "cloth/springs.h"
+
+namespace weft {
+
+/// Everything that pushes one cloth, at one level.
+template <class Real>
+struct Forces {
+  const Springs<Real>* springs = nullptr;
+  const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
+  EffectContext context;
+
+  /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N.
+  void sum(const Particles<Real>& particles, VectorField<Real>& force) const;
+};
+
+/// What one advance did.
+struct AdvanceReport {
+  int substeps = 0;
+  int nodes_in_contact = 0;    ///< at the end of the step
+  double forces_seconds = 0;   ///< wall time
+  double contact_seconds = 0;  ///< wall time
+};
+
+/// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods; it keeps its own
+/// work arrays and no state that the particles do not show.
+template <class Real>
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  virtual const char* name() const = 0;
+  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; `balls` have begun the step.
+  virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
+                                std::vector<Ball>& balls, double time, double dt) = 0;
+};
+
+template <class Real>
+std::unique_ptr<Integrator<Real>> make_integrator(const IntegratorDescription& description);
+
+}  // namespace weft

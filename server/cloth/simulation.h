@@ -1,0 +1,83 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace weft {
+
+/// Wall time of the stages of the last step, s.
+struct StepProfile {
+  double levels = 0;   ///< split and merge
+  double forces = 0;   ///< springs and effects
+  double contact = 0;  ///< broad phase and response
+  double check = 0;    ///< is everything finite
+  double total = 0;
+};
+
+/// State of one cloth, for stats.
+struct ClothReport {
+  int level = 0;
+  int substeps = 0;  ///< of the last step
+  int nodes_in_contact = 0;
+  double kinetic_energy = 0;    ///< J
+  double potential_energy = 0;  ///< J, springs and gravity
+  StructuralStrain strain;
+};
+
+/// A scene being simulated: cloths, balls, wind, and the step. Deterministic: the same description and the same calls
+/// between the same steps give the same bits. Not thread-safe; one owner calls it.
+template <class Real>
+class Simulation {
+ public:
+  explicit Simulation(SimulationDescription description);
+
+  const SimulationDescription& description() const { return description_; }
+  std::uint64_t step_count() const { return steps_; }
+  /// step_count * time_step, counted in whole steps so that it never drifts, s.
+  double time() const { return static_cast<double>(steps_) * description_.time_step; }
+  bool healthy() const { return healthy_; }  ///< false once a step gave a non-finite state
+  const StepProfile& profile() const { return profile_; }
+
+  const std::vector<Cloth<Real>>& cloths() const { return cloths_; }
+  std::vector<Cloth<Real>>& cloths() { return cloths_; }
+  const Colliders& colliders() const { return colliders_; }
+  const Wind& wind() const { return wind_; }
+  Vec3 gravity() const { return gravity_; }
+  /// Energies and strain, computed now: not part of a step.
+  ClothReport report(std::size_t cloth) const;
+  /// The cloth's centre (mean of its nodes), for Eq. 7.
+  Vec3 centre(std::size_t cloth) const;
+
+  // Commands: each takes effect in the next step.
+  void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
+  void set_wind(const Wind& wind) { wind_ = wind; }
+  BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
+  bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
+  bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }
+  bool remove_ball(BallId id) { return colliders_.remove(id); }
+
+  /// One fixed step of description().time_step seconds.
+  void step();
+  /// Back to the description's start, at the description's initial levels.
+  void reset();
+
+ private:
+  void check_finite();
+
+  SimulationDescription description_;
+  Vec3 gravity_{0, 0, 0};
+  Wind wind_;
+  Colliders colliders_;
+  std::vector<Cloth<Real>> cloths_;
+  std::vector<AdvanceReport> last_advance_;
+  std::uint64_t steps_ = 0;
+  bool healthy_ = true;
+  StepProfile profile_;
+};
+
+extern template class Simulation<float>;
+extern template class Simulation<double>;
+
+}  // namespace weft

@@ -1,0 +1,14 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace weft {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;  // metres, m/s, newtons: SI, right-handed, y up
+using Quaternion = Eigen::Quaterniond;
+
+/// Standard gravity's direction and size, m/s2.
+inline Vec3 standard_gravity() { return {0.0, -9.81, 0.0}; }
+
+}  // namespace weft
