@@ -1,0 +1,41 @@
+# Sourced by server/run, tests/run and docker/Dockerfile: what Weft needs on Debian 12, and how to get it.
+
+# To build and run the server. A command already on the machine (a newer Node.js, say) spares its package.
+build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libboost-dev nlohmann-json3-dev
+                libcli11-dev libspdlog-dev libtinygltf-dev nodejs npm)
+# To run the image: the shared libraries of the above.
+runtime_packages=(libfcl0.7 libspdlog1.10 libtinygltf2d)
+# To test it: C++ test libraries, the Python client's only dependency, a browser, an image reader.
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libvalijson-dev
+               python3 python3-websockets chromium fonts-dejavu-core)
+# To check it: format and lint.
+lint_packages=(clang clang-format clang-tidy)
+
+# install_missing PACKAGE...: installs what is not there, in one apt-get call; silent when nothing is missing.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    case $package in
+      g++ | cmake | ccache | npm | clang | clang-format | clang-tidy) command -v "$package" > /dev/null && continue ;;
+      ninja-build) command -v ninja > /dev/null && continue ;;
+      nodejs) command -v node > /dev/null && continue ;;
+    esac
+    dpkg-query -W -f='${Status}' "$package" 2> /dev/null | grep -q '^install ok installed' || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "Installing: ${missing[*]}" >&2
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo > /dev/null || { echo "Not root and no sudo: install these yourself: ${missing[*]}" >&2; return 1; }
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+}
+
+# configure PRESET [OPTION...]: CMake's output only when it fails.
+configure() {
+  local preset=$1 log
+  shift
+  log=$(cmake --preset "$preset" "$@" 2>&1) || { printf '%s\n' "$log" >&2; return 1; }
+}
