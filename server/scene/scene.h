@@ -1,5 +1,6 @@
 #pragma once
-/// Scene files: JSON -> a description that can be simulated, every error named. Format: scene.schema.json and README.
+/// Scene files: JSON -> a description that can be simulated, every error named. Format: scene.schema.json and
+/// README.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -12,16 +13,17 @@ namespace weft::scene {
 
 /// One thing wrong with a scene file.
 struct Problem {
-  std::string path;     ///< JSON pointer, for example /cloths/0/material/density
+  std::string path;     ///< JSON pointer, for example /cloths/0/material/density; empty: the whole file
   std::string message;  ///< names the value and the allowed range
-  std::string text() const { return path + ": " + message; }
+  std::string text() const { return path.empty() ? message : path + ": " + message; }
 };
 
 struct Scene {
-  std::string name;   ///< preset or file name without extension: [a-z0-9-]{1,64}
-  std::string title;  ///< one line for people
-  double camera_distance = 5.0;         ///< a viewer's distance until it says its own, m
-  Vec3 camera_eye{0.0, 0.0, 5.0};       ///< where a page puts its camera at first, m
+  std::string name;                ///< preset or file name without extension: [a-z0-9-]{1,64}
+  std::string title;               ///< one line for people
+  std::vector<std::string> notes;  ///< what was chosen, and why
+  double camera_distance = 5.0;    ///< a viewer's distance until it says its own, m
+  Vec3 camera_eye{0.0, 0.0, 5.0};  ///< where a page puts its camera at first, m
   Vec3 camera_target{0.0, 0.0, 0.0};
   SimulationDescription simulation;
 };
@@ -29,15 +31,16 @@ struct Scene {
 /// The scene, or everything that is wrong with it (all problems at once).
 using Result = std::variant<Scene, std::vector<Problem>>;
 
-/// Reads a scene from JSON text. Never throws. Duplicate keys, unknown keys, wrong types, out-of-range and non-finite
-/// values are problems; text that is not JSON is one problem that gives line and column.
+/// Reads a scene from JSON text. Never throws. Duplicate keys, unknown keys, wrong types, out-of-range and
+/// non-finite values are problems; text that is not JSON is one problem that gives line and column.
 Result parse(std::string_view text, std::string_view name);
 
 /// As parse, of a document already read; `--set` edits one before this.
 Result from_json(const nlohmann::json& document, std::string_view name);
 
-/// Loads SCENE as the command line takes it: a preset's name, else a file's path. `overrides` are JSON-pointer=value
-/// (value is JSON, or else a string), applied before checking.
+/// Loads SCENE as the command line takes it: a preset's name, else a file's path. `overrides` are
+/// JSON-pointer=value (value is JSON, or else a string), applied before checking; null takes the member away,
+/// "-" appends to an array.
 Result load(const std::string& preset_or_file, const std::vector<std::string>& overrides = {});
 
 /// The preset scenes, in the order they are listed.

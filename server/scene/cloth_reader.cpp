@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <numbers>
+
+#include "scene/readers.h"
+
+namespace weft::scene {
+namespace {
+
+using nlohmann::json;
+
+/// The fabric that `value` names; nullptr and a problem otherwise.
+const Fabric* read_fabric(const json& value, const std::string& path, Report& report) {
+  const Fabric* fabric = value.is_string() ? find_fabric(value.get_ref<const std::string&>()) : nullptr;
+  if (!fabric) {
+    std::vector<std::string_view> names;
+    for (const Fabric& each : fabrics()) names.push_back(each.name);
+    report.refuse(value, path, "a fabric, one of " + quoted_list(names));
+  }
+  return fabric;
+}
+
+/// A fabric's name, or raw values; with "fabric" they change that fabric's.
+Material read_material(const json& value, const std::string& path, Report& report) {
+  constexpr Range kDensity{1e-4, 1e4, "kg/m2"};
+  constexpr Range kStiffness{0, 1e9, "N/m"};
+  constexpr Range kDamping{0, 1e6};
+  Material material;
+  if (value.is_string()) {
+    if (const Fabric* fabric = read_fabric(value, path, report)) material = fabric->material;
+    return material;
+  }
+  Object object(value, path, report);
+  if (const json* name = object.find("fabric")) {
+    if (const Fabric* fabric = read_fabric(*name, object.path("fabric"), report)) material = fabric->material;
+  }
+  object.number("density", material.density, kDensity);
+  object.number("structural", material.structural, kStiffness);
+  object.number("shear", material.shear, kStiffness);
+  object.number("bending", material.bending, kStiffness);
+  object.number("damping", material.damping, kDamping);
+  return material;
+}
+
+/// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
+Quaternion read_orientation(const json& value, const std::string& path, Report& report) {
+  constexpr Range kDegrees{-360, 360, "degrees"};
+  Object object(value, path, report);
+  if (object.has("quaternion")) {
+    if (object.has("axis") || object.has("degrees")) {
+      report.add(path, "has both quaternion and axis, degrees; must have one of the two");
+    }
+    Eigen::Vector4d quaternion{1, 0, 0, 0};
+    object.direction("quaternion", quaternion, kComponent);
+    return {quaternion[0], quaternion[1], quaternion[2], quaternion[3]};
+  }
+  Vec3 axis = Vec3::UnitY();
+  double degrees = 0;
+  object.require("axis", "an array of 3 numbers");
+  object.direction("axis", axis, kComponent);
+  object.require("degrees", kDegrees.text().c_str());
+  object.number("degrees", degrees, kDegrees);
+  return Quaternion(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis));
+}
+
+/// One side of a pin's region: a number, or [from, to].
+void read_span(Object& pin, const char* key, double& min, double& max) {
+  constexpr Range kShare{0, 1};
+  const json* value = pin.find(key);
+  if (value && value->is_array()) {
+    Vec2 span{0, 0};
+    if (!pin.vector(key, span, kShare)) return;
+    if (span[0] > span[1]) pin.problem(key, "goes from a larger to a smaller number; must ascend");
+    min = span[0];
+    max = span[1];
+  } else if (pin.require(key, "a number from 0 to 1 or an array of two") && pin.number(key, min, kShare)) {
+    max = min;
+  }
+}
+
+/// A corner's or an edge's name, or {"u", "v"}.
+PinRegion read_pin(const json& value, const std::string& path, Report& report) {
+  struct Named {
+    const char* name;
+    PinRegion region;
+  };
+  static const Named named[] = {
+      {"top_left", {0, 0, 0, 0}},     {"top_right", {1, 1, 0, 0}}, {"bottom_left", {0, 0, 1, 1}},
+      {"bottom_right", {1, 1, 1, 1}}, {"top", {0, 1, 0, 0}},       {"bottom", {0, 1, 1, 1}},
+      {"left", {0, 0, 0, 1}},         {"right", {1, 1, 0, 1}},
+  };
+  PinRegion region;
+  if (value.is_object()) {
+    Object object(value, path, report);
+    read_span(object, "u", region.u_min, region.u_max);
+    read_span(object, "v", region.v_min, region.v_max);
+    return region;
+  }
+  std::vector<std::string_view> names;
+  for (const Named& each : named) {
+    if (value == each.name) return each.region;
+    names.emplace_back(each.name);
+  }
+  report.refuse(value, path, "one of " + quoted_list(names) + " or an object with u and v");
+  return region;
+}
+
+void read_levels(const json& value, const std::string& path, Report& report, ClothDescription& cloth) {
+  Object object(value, path, report);
+  const bool min = object.integer("min", cloth.min_level, kLevel);
+  const bool max = object.integer("max", cloth.max_level, kLevel);
+  if (!min) cloth.min_level = std::min(cloth.min_level, cloth.max_level);
+  if (!max) cloth.max_level = std::max(cloth.min_level, cloth.max_level);
+  if (cloth.min_level > cloth.max_level) {
+    report.add(path, "min is " + std::to_string(cloth.min_level) + "; must be at most max, " +
+                         std::to_string(cloth.max_level));
+    return;
+  }
+  cloth.initial_level = cloth.max_level;
+  object.integer("initial", cloth.initial_level, {double(cloth.min_level), double(cloth.max_level)});
+}
+
+int nodes_at(const ClothDescription& cloth, int level) {
+  return ((cloth.base_cells.cols << level) + 1) * ((cloth.base_cells.rows << level) + 1);
+}
+
+/// The start positions, for a cloth whose cells and levels have been read.
+void read_nodes(Object& object, ClothDescription& cloth) {
+  for (const char* key : {"position", "orientation"}) {
+    if (object.has(key)) object.problem(key, "is given beside nodes; nodes are where the cloth starts");
+  }
+  const auto expected = static_cast<std::size_t>(nodes_at(cloth, cloth.initial_level));
+  const json& value = *object.find("nodes");
+  if (!value.is_array() || value.size() != expected) {
+    object.report().refuse(value, object.path("nodes"),
+                           "an array of " + std::to_string(expected) + ": the nodes at level " +
+                               std::to_string(cloth.initial_level) + ", row by row");
+    return;
+  }
+  object.each("nodes", expected, expected, [&](const json& node, const std::string& path) {
+    Vec3 position{0, 0, 0};
+    read_numbers(node, path, kPosition, position.data(), 3, object.report());
+    cloth.nodes.push_back(position);
+  });
+}
+
+bool is_name(const std::string& text) {
+  return !text.empty() &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
+}
+
+}  // namespace
+
+ClothDescription read_cloth(const json& value, const std::string& path, Report& report) {
+  constexpr Range kBaseCells{1, 32};
+  constexpr Range kPerturbation{0, 100, "m"};
+  ClothDescription cloth;
+  Object object(value, path, report);
+  if (object.string("name", cloth.name, 64) && !is_name(cloth.name)) {  // it becomes part of file names
+    report.refuse(*object.find("name"), object.path("name"), "1 to 64 of a-z, 0-9, - and _");
+  }
+  object.vector("size", cloth.size, kLength);
+  if (const json* cells = object.find("base_cells")) {
+    const std::string at = object.path("base_cells");
+    double counts[2] = {1, 1};
+    const bool integers = cells->is_array() && cells->size() == 2 && (*cells)[0].is_number_integer() &&
+                          (*cells)[1].is_number_integer();
+    if (!integers) {
+      report.refuse(*cells, at, "an array of 2 integers, each " + kBaseCells.text());
+    } else if (read_numbers(*cells, at, kBaseCells, counts, 2, report)) {
+      cloth.base_cells = {static_cast<int>(counts[0]), static_cast<int>(counts[1])};
+    }
+  }
+  if (const json* levels = object.find("levels")) read_levels(*levels, object.path("levels"), report, cloth);
+  if (const int nodes = nodes_at(cloth, cloth.max_level); nodes > kMaxClothNodes) {
+    report.add(path, "has " + std::to_string(nodes) + " nodes at level " + std::to_string(cloth.max_level) +
+                         "; at most " + std::to_string(kMaxClothNodes) + " are allowed");
+  }
+  if (object.has("nodes")) {
+    read_nodes(object, cloth);
+  }
+  object.vector("position", cloth.position, kPosition);
+  if (const json* orientation = object.find("orientation")) {
+    cloth.orientation = read_orientation(*orientation, object.path("orientation"), report);
+  }
+  object.vector("velocity", cloth.velocity, kVelocity);
+  object.number("perturbation", cloth.perturbation, kPerturbation);
+  if (const json* material = object.find("material")) {
+    cloth.material = read_material(*material, object.path("material"), report);
+  }
+  if (object.choice("discretization", {"paper", "continuum"}) == 0)
+    cloth.discretization = Discretization::paper;
+  object.each("pins", 0, kMaxPins, [&](const json& pin, const std::string& at) {
+    cloth.pins.push_back(read_pin(pin, at, report));
+  });
+  return cloth;
+}
+
+}  // namespace weft::scene

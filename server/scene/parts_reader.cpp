@@ -1,0 +1,170 @@
+#include "scene/readers.h"
+
+namespace weft::scene {
+namespace {
+
+using nlohmann::json;
+
+/// Times ascend: the ball is at one place at a time.
+std::vector<Waypoint> read_path(Object& ball) {
+  constexpr Range kTime{0, 1e6, "s"};
+  for (const char* key : {"position", "velocity"}) {
+    if (ball.has(key)) ball.problem(key, "is given beside path; the path says where the ball is");
+  }
+  std::vector<Waypoint> path;
+  ball.each("path", 1, kMaxWaypoints, [&](const json& value, const std::string& at) {
+    Waypoint point;
+    Object object(value, at, ball.report());
+    object.require("time", kTime.text().c_str());
+    const bool timed = object.number("time", point.time, kTime);
+    object.require("position", "an array of 3 numbers");
+    object.vector("position", point.position, kPosition);
+    if (timed && !path.empty() && point.time <= path.back().time) {
+      ball.report().refuse(value["time"], object.path("time"),
+                           "later than the point before, at " + json(path.back().time).dump() + " s");
+    }
+    path.push_back(point);
+  });
+  return path;
+}
+
+}  // namespace
+
+std::optional<BallDescription> read_collider(const json& value, const std::string& path, Report& report) {
+  constexpr Range kMass{1e-6, 1e6, "kg"};
+  Object object(value, path, report);
+  object.require("type", "\"ball\"");
+  if (object.choice("type", {"ball"}) < 0) {
+    object.ignore_rest();
+    return std::nullopt;
+  }
+  BallDescription ball;
+  object.require("radius", kLength.text().c_str());
+  object.number("radius", ball.radius, kLength);
+  if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
+  object.number("mass", ball.mass, kMass);
+  if (object.has("path")) {
+    if (ball.motion == BallDescription::Motion::dynamic) {
+      object.problem("path", "is given for a dynamic ball; only kinematic balls follow a path");
+    }
+    ball.path = read_path(object);
+    if (!ball.path.empty()) ball.position = ball.path.front().position;
+  } else {
+    object.require("position", "an array of 3 numbers, or a path");
+  }
+  object.vector("position", ball.position, kPosition);
+  object.vector("velocity", ball.velocity, kVelocity);
+  return ball;
+}
+
+std::optional<EffectDescription> read_effect(const json& value, const std::string& path, Report& report) {
+  constexpr Range kAcceleration{-1e4, 1e4, "m/s2"};
+  constexpr Range kFactor{0, 1e6, "N at 1 m/s"};
+  constexpr Range kAirDensity{0, 1e4, "kg/m3"};
+  constexpr Range kDrag{0, 100};
+  Object object(value, path, report);
+  object.require("type", "an effect's name");
+  switch (object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
+                                 AerodynamicsEffect::kName})) {
+    case 0: {
+      GravityEffect gravity;
+      object.vector("acceleration", gravity.acceleration, kAcceleration);
+      return gravity;
+    }
+    case 1:
+      return DampingEffect{};
+    case 2: {
+      PaperWindEffect wind;
+      object.number("factor", wind.factor, kFactor);
+      object.boolean("along_normal", wind.along_normal);
+      return wind;
+    }
+    case 3: {
+      AerodynamicsEffect aerodynamics;
+      object.number("air_density", aerodynamics.air_density, kAirDensity);
+      object.number("drag", aerodynamics.drag, kDrag);
+      return aerodynamics;
+    }
+    default:
+      object.ignore_rest();
+      return std::nullopt;
+  }
+}
+
+Wind read_wind(const json& value, const std::string& path, Report& report) {
+  constexpr Range kSpeed{0, 100, "m/s"};
+  Wind wind;
+  Object object(value, path, report);
+  object.direction("direction", wind.direction, kComponent);
+  object.require("speed", kSpeed.text().c_str());
+  object.number("speed", wind.speed, kSpeed);
+  return wind;
+}
+
+IntegratorDescription read_integrator(const json& value, const std::string& path, Report& report) {
+  constexpr Range kSubsteps{1, 10000};
+  constexpr Range kSafety{0.01, 1};
+  SymplecticEulerDescription euler;
+  Object object(value, path, report);
+  object.require("type", "an integrator's name");
+  if (object.choice("type", {SymplecticEulerDescription::kName}) < 0) {
+    object.ignore_rest();
+    return euler;
+  }
+  const json* substeps = object.find("substeps");
+  if (substeps && *substeps != "auto") {
+    if (substeps->is_string()) {
+      report.refuse(*substeps, object.path("substeps"), "\"auto\" or an integer " + kSubsteps.text());
+    } else {
+      object.integer("substeps", euler.substeps, kSubsteps);
+    }
+  }
+  object.number("safety", euler.safety, kSafety);
+  return euler;
+}
+
+LevelPolicy read_level_policy(const json& value, const std::string& path, Report& report) {
+  constexpr Range kThreshold{1e-4, 1e6, "m"};
+  constexpr Range kHysteresis{0, 0.9};
+  constexpr std::size_t kMostLevels = kMaxLevel - kMinLevel + 1;
+  LevelPolicy policy;
+  Object object(value, path, report);
+  if (object.has("thresholds")) {
+    policy.thresholds.clear();
+    object.each("thresholds", 0, kMostLevels - 1, [&](const json& each, const std::string& at) {
+      const auto threshold = read_number(each, at, kThreshold, report);
+      if (!threshold) return;
+      if (!policy.thresholds.empty() && *threshold <= policy.thresholds.back()) {
+        report.refuse(each, at, "above the one before; thresholds ascend");
+      }
+      policy.thresholds.push_back(*threshold);
+    });
+  }
+  if (object.has("levels")) {
+    policy.levels.clear();
+    object.each("levels", 1, kMostLevels, [&](const json& each, const std::string& at) {
+      if (!each.is_number_integer() || each < kMinLevel || each > kMaxLevel) {
+        report.refuse(each, at, "an integer " + kLevel.text());
+        return;
+      }
+      const int level = each.get<int>();
+      if (!policy.levels.empty() && level >= policy.levels.back()) {
+        report.refuse(each, at, "below the one before; levels descend with distance");
+      }
+      policy.levels.push_back(level);
+    });
+  }
+  const json* thresholds = object.find("thresholds");
+  const json* levels = object.find("levels");
+  const std::size_t bands =
+      1 + (thresholds && thresholds->is_array() ? thresholds->size() : policy.thresholds.size());
+  const std::size_t count = levels && levels->is_array() ? levels->size() : policy.levels.size();
+  if (count != bands) {
+    report.add(path, "has " + std::to_string(count) + " levels; must be " + std::to_string(bands) +
+                         ", one more than thresholds");
+  }
+  object.number("hysteresis", policy.hysteresis, kHysteresis);
+  return policy;
+}
+
+}  // namespace weft::scene

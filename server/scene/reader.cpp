@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "scene/document.h"
+#include "scene/readers.h"
+
+namespace weft::scene {
+namespace {
+
+using nlohmann::json;
+
+/// "notes": one string or several.
+std::vector<std::string> read_notes(Object& scene) {
+  constexpr std::size_t kMaxNotes = 64, kNoteLength = 2000;
+  std::vector<std::string> notes;
+  const json* value = scene.find("notes");
+  if (value && value->is_string()) {
+    scene.string("notes", notes.emplace_back(), kNoteLength);
+  } else if (value && !value->is_array()) {
+    scene.report().refuse(*value, scene.path("notes"), "a string or an array of strings");
+  } else {
+    scene.each("notes", 0, kMaxNotes, [&](const json& note, const std::string& path) {
+      if (note.is_string()) {
+        notes.push_back(note.get<std::string>());
+      } else {
+        scene.report().refuse(note, path, "a string");
+      }
+    });
+  }
+  return notes;
+}
+
+/// Where people look from: the eye defaults to `distance` in front of the target, the distance to the eye's.
+void read_camera(const json& value, const std::string& path, Report& report, Scene& scene) {
+  constexpr Range kDistance{0, 1e6, "m"};
+  constexpr Range kFar{-1e6, 1e6, "m"};
+  Object object(value, path, report);
+  object.vector("target", scene.camera_target, kPosition);
+  const bool distance = object.number("distance", scene.camera_distance, kDistance);
+  if (object.vector("eye", scene.camera_eye, kFar)) {
+    if (!distance) scene.camera_distance = (scene.camera_eye - scene.camera_target).norm();
+  } else {
+    scene.camera_eye = scene.camera_target + Vec3(0, 0, scene.camera_distance);
+  }
+}
+
+std::vector<ClothDescription> read_cloths(Object& scene) {
+  std::vector<ClothDescription> cloths;
+  scene.require("cloths", "an array of cloths");
+  scene.each("cloths", 1, kMaxCloths, [&](const json& value, const std::string& path) {
+    ClothDescription cloth = read_cloth(value, path, scene.report());
+    const auto same =
+        std::find_if(cloths.begin(), cloths.end(), [&](const auto& o) { return o.name == cloth.name; });
+    if (same != cloths.end()) {
+      scene.report().add(path + "/name", "is \"" + cloth.name + "\", the name of /cloths/" +
+                                             std::to_string(same - cloths.begin()) +
+                                             " too; names must differ");
+    }
+    cloths.push_back(std::move(cloth));
+  });
+  return cloths;
+}
+
+std::vector<EffectDescription> read_effects(Object& scene) {
+  constexpr std::size_t kMaxEffects = std::variant_size_v<EffectDescription>;
+  std::vector<EffectDescription> effects;
+  std::array<std::string, kMaxEffects> first_of_type;
+  scene.each("effects", 0, kMaxEffects, [&](const json& value, const std::string& path) {
+    auto effect = read_effect(value, path, scene.report());
+    if (!effect) return;
+    std::string& first = first_of_type[effect->index()];
+    if (!first.empty()) {
+      scene.report().add(path + "/type", "is the type of " + first + " too; an effect may be listed once");
+    } else {
+      first = path;
+    }
+    effects.push_back(*effect);
+  });
+  return effects;
+}
+
+bool reads_wind(const EffectDescription& effect) {
+  return std::holds_alternative<PaperWindEffect>(effect) ||
+         std::holds_alternative<AerodynamicsEffect>(effect);
+}
+
+}  // namespace
+
+Result read_scene(const json& document, std::string_view name, std::vector<Problem> found,
+                  std::map<std::string, std::string> overflows) {
+  constexpr std::size_t kTitleLength = 200;
+  constexpr Range kTimeStep{1e-6, 0.1, "s"};
+  constexpr Range kSeed{0, 9007199254740991};  // 2^53 - 1: exact in every JSON reader
+  Report report(std::move(found), std::move(overflows));
+  Scene scene;
+  scene.name = name;
+  scene.title = name;
+  {
+    Object object(document, "", report);
+    SimulationDescription& simulation = scene.simulation;
+    object.string("title", scene.title, kTitleLength);
+    scene.notes = read_notes(object);
+    simulation.cloths = read_cloths(object);
+    object.each("colliders", 0, kMaxBalls, [&](const json& value, const std::string& path) {
+      if (auto ball = read_collider(value, path, report)) simulation.balls.push_back(std::move(*ball));
+    });
+    simulation.effects = read_effects(object);
+    if (const json* wind = object.find("wind")) {
+      simulation.wind = read_wind(*wind, "/wind", report);
+      if (std::none_of(simulation.effects.begin(), simulation.effects.end(), reads_wind)) {
+        report.add("/wind", "is read by no effect; list \"paper_wind\" or \"aerodynamics\" in /effects");
+      }
+    }
+    if (const json* integrator = object.find("integrator")) {
+      simulation.integrator = read_integrator(*integrator, "/integrator", report);
+    }
+    object.number("time_step", simulation.time_step, kTimeStep);
+    if (const json* policy = object.find("level_policy")) {
+      simulation.level_policy = read_level_policy(*policy, "/level_policy", report);
+    }
+    object.integer("seed", simulation.seed, kSeed);
+    if (const json* camera = object.find("camera")) read_camera(*camera, "/camera", report, scene);
+  }
+  auto problems = report.take();
+  if (!problems.empty()) return problems;
+  return scene;
+}
+
+}  // namespace weft::scene

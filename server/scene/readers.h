@@ -1,0 +1,38 @@
+#pragma once
+/// The parts of a scene file, one function each. Every problem goes to `report` with its pointer; what is
+/// returned is only meaningful if there were none.
+#include <optional>
+
+#include "scene/object.h"
+
+namespace weft::scene {
+
+// Limits of a scene (D10); scene.schema.json states the same.
+inline constexpr std::size_t kMaxCloths = 16;
+inline constexpr std::size_t kMaxBalls = 64;
+inline constexpr int kMaxClothNodes = 257 * 257;  ///< at the cloth's highest level
+inline constexpr std::size_t kMaxPins = 256;
+inline constexpr std::size_t kMaxWaypoints = 10000;
+
+// Ranges that several parts share. They only keep numbers where float arithmetic makes sense: sheets of 1 mm
+// to 10 km, from spider silk to steel.
+inline constexpr Range kPosition{-1e4, 1e4, "m"};
+inline constexpr Range kLength{1e-4, 1e4, "m"};
+inline constexpr Range kVelocity{-1e3, 1e3, "m/s"};
+inline constexpr Range kLevel{kMinLevel, kMaxLevel};
+inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
+
+ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report);
+std::optional<BallDescription> read_collider(const nlohmann::json& value, const std::string& path,
+                                             Report& report);
+std::optional<EffectDescription> read_effect(const nlohmann::json& value, const std::string& path,
+                                             Report& report);
+Wind read_wind(const nlohmann::json& value, const std::string& path, Report& report);
+IntegratorDescription read_integrator(const nlohmann::json& value, const std::string& path, Report& report);
+LevelPolicy read_level_policy(const nlohmann::json& value, const std::string& path, Report& report);
+
+/// As above, of a document that has been read. `found` are problems its text had, `overflows` see Document.
+Result read_scene(const nlohmann::json& document, std::string_view name, std::vector<Problem> found,
+                  std::map<std::string, std::string> overflows);
+
+}  // namespace weft::scene

@@ -1,0 +1,73 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "scene/document.h"
+#include "scene/overrides.h"
+#include "scene/readers.h"
+
+namespace weft::scene {
+namespace {
+
+/// A file's name without folders and extension, as a scene's name: [a-z0-9-]{1,64}.
+std::string name_of_file(const std::string& file) {
+  std::string name;
+  for (const char c : std::filesystem::path(file).stem().string()) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    name += upper ? static_cast<char>(c - 'A' + 'a') : plain ? c : '-';
+  }
+  name.resize(std::min<std::size_t>(name.size(), 64));
+  return name.empty() ? "scene" : name;
+}
+
+std::string preset_names() {
+  std::string text;
+  for (const Preset& preset : presets()) text += (text.empty() ? "" : ", ") + std::string(preset.name);
+  return text;
+}
+
+Result read_text(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
+  Document document = read_document(text);
+  if (!document.readable) return std::move(document.problems);
+  for (const std::string& override_text : overrides) {
+    if (auto problem = apply_override(override_text, document.tree))
+      document.problems.push_back(std::move(*problem));
+  }
+  return read_scene(document.tree, name, std::move(document.problems), std::move(document.overflows));
+}
+
+}  // namespace
+
+Result parse(std::string_view text, std::string_view name) { return read_text(text, name, {}); }
+
+Result from_json(const nlohmann::json& document, std::string_view name) {
+  return read_scene(document, name, {}, {});
+}
+
+Result load(const std::string& preset_or_file, const std::vector<std::string>& overrides) {
+  for (const Preset& preset : presets()) {
+    if (preset.name == preset_or_file) return read_text(preset.text, preset.name, overrides);
+  }
+  std::ifstream file(preset_or_file, std::ios::binary);
+  std::string text;
+  std::array<char, 65536> chunk{};
+  do {  // not beyond what is allowed: a device that never ends must not fill memory
+    file.read(chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file && text.size() <= kMaxTextBytes);
+  if (!file && !file.eof()) {
+    return std::vector<Problem>{{"", preset_or_file + ": " + std::strerror(errno) +
+                                         " (neither a file nor a preset; the presets are " + preset_names() +
+                                         ")"}};
+  }
+  return read_text(text, name_of_file(preset_or_file), overrides);
+}
+
+}  // namespace weft::scene
