@@ -15,11 +15,11 @@ inline constexpr std::uint16_t kFlagLast = 1, kFlagPaused = 2, kFlagSlow = 4;
 
 /// What all records of one message share.
 struct FrameStamp {
-  std::uint32_t frame = 0;      ///< steps since the epoch began
+  std::uint32_t frame = 0;  ///< steps since the epoch began
   std::uint32_t epoch = 0;
-  double time = 0;              ///< simulated, s
+  double time = 0;  ///< simulated, s
   std::uint32_t server_ms = 0;
-  std::uint16_t flags = 0;      ///< without kFlagLast
+  std::uint16_t flags = 0;  ///< without kFlagLast
 };
 
 struct FrameBall {

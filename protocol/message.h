@@ -74,8 +74,8 @@ struct Ping {
   double t = 0;
 };
 
-using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove, WindSet,
-                             Pause, Resume, Reset, Step, Ping>;
+using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
+                             BallRemove, WindSet, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;
@@ -88,17 +88,19 @@ struct Error {
   std::string code, path, message;
 };
 
-/// Reads one client message. Depth is limited before a tree is built; duplicate keys, unknown members, wrong types,
-/// missing, non-finite and out-of-range values are errors. Never throws.
+/// Reads one client message. Depth is limited before a tree is built; duplicate keys, unknown members, wrong
+/// types, missing, non-finite and out-of-range values are errors. Never throws.
 std::variant<Request, Error> parse_request(std::string_view text, const Limits& limits = {});
 
 /// A client message as JSON text, the inverse of parse_request: for clients written in C++.
 std::string to_text(const Request& request);
 
 // Server messages. `extra` members are merged into the object.
-std::string ok_text(std::int64_t re, std::uint64_t frame, const nlohmann::json& extra = nlohmann::json::object());
+std::string ok_text(std::int64_t re, std::uint64_t frame,
+                    const nlohmann::json& extra = nlohmann::json::object());
 std::string error_text(const Error& error);
 std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time);
+/// `server_version` alone, as in "0.1.0".
 std::string welcome_text(std::string_view server_version, const Limits& limits);
 std::string event_text(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
 std::string notice_text(std::string_view code, std::string_view message);

@@ -1,0 +1,337 @@
+#include "protocol/command_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+namespace weft::protocol {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+using Fault = std::optional<JsonFault>;
+
+constexpr std::size_t kMaxCapabilities = 16;
+
+/// Of a number, of each component of a vector, or of the characters of a text.
+struct Bounds {
+  double low = 0, high = 0;
+  const char* unit = "";
+};
+
+std::string number_text(double value) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 10);
+  return {text.data(), end.ptr};
+}
+
+std::string range_text(const Bounds& bounds) {
+  std::string text = number_text(bounds.low) + ".." + number_text(bounds.high);
+  if (*bounds.unit != 0) text += std::string(" (") + bounds.unit + ")";
+  return text;
+}
+
+/// A value as the message shows it: whole, or its beginning.
+std::string shown(const json& value) {
+  constexpr std::size_t kShown = 60;
+  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (text.size() <= kShown) return text;
+  std::size_t end = kShown;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a character
+  return text.substr(0, end) + "...";
+}
+
+JsonFault refuse(const char* code, std::string path, const json& value, const std::string& allowed) {
+  std::string message = path + " is " + shown(value) + "; allowed: " + allowed;
+  return {code, std::move(path), std::move(message)};
+}
+
+// --- One reader, writer and description a type. `read` checks a value and stores it. ---
+
+std::string kind_of(const double&, const Bounds& bounds) { return "a number " + range_text(bounds); }
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, double& to) {
+  if (!value.is_number()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  to = value.get<double>();
+  if (!(to >= bounds.low && to <= bounds.high)) return refuse("range", path, value, range_text(bounds));
+  return {};
+}
+
+template <std::integral Integer>
+std::string kind_of(const Integer&, const Bounds& bounds) {
+  return "an integer " + range_text(bounds);
+}
+
+/// Any number without a fraction is an integer, however it is written: 7.0 and 7e0 too.
+template <std::integral Integer>
+Fault read(const json& value, const Bounds& bounds, const std::string& path, Integer& to) {
+  const double number = value.is_number() ? value.get<double>() : 0.5;
+  if (number != std::floor(number)) return refuse("bad_type", path, value, kind_of(to, bounds));
+  if (!(number >= bounds.low && number <= bounds.high))
+    return refuse("range", path, value, range_text(bounds));
+  to = static_cast<Integer>(number);
+  return {};
+}
+
+std::string kind_of(const Vector&, const Bounds& bounds) {
+  return "an array of 3 numbers " + range_text(bounds);
+}
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, Vector& to) {
+  if (!value.is_array() || value.size() != to.size())
+    return refuse("bad_type", path, value, kind_of(to, bounds));
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (auto fault = read(value[i], bounds, pointer_to(path, std::to_string(i)), to[i])) return fault;
+  }
+  return {};
+}
+
+std::string kind_of(const std::string&, const Bounds& bounds) {
+  return "a string of " + range_text(bounds) + " characters";
+}
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, std::string& to) {
+  if (!value.is_string()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  to = value.get<std::string>();
+  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  const auto characters = double(std::count_if(to.begin(), to.end(), starts_character));
+  if (characters < bounds.low || characters > bounds.high)
+    return refuse("range", path, value, range_text(bounds) + " characters");
+  return {};
+}
+
+using Texts = std::vector<std::string>;
+
+std::string kind_of(const Texts&, const Bounds& bounds) {
+  return "an array of at most " + std::to_string(kMaxCapabilities) + " strings of " + range_text(bounds) +
+         " characters";
+}
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, Texts& to) {
+  if (!value.is_array()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  if (value.size() > kMaxCapabilities) return refuse("range", path, value, kind_of(to, bounds));
+  to.resize(value.size());
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (auto fault = read(value[i], bounds, pointer_to(path, std::to_string(i)), to[i])) return fault;
+  }
+  return {};
+}
+
+/// A ball's motion, by name on the wire.
+constexpr const char* kKinematic = "kinematic";
+constexpr const char* kDynamic = "dynamic";
+
+std::string kind_of(const bool&, const Bounds&) {
+  return std::string("\"") + kKinematic + "\" or \"" + kDynamic + "\"";
+}
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, bool& to) {
+  if (!value.is_string()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  to = value == kDynamic;
+  if (!to && value != kKinematic) return refuse("range", path, value, kind_of(to, bounds));
+  return {};
+}
+
+template <class T>
+std::string kind_of(const std::optional<T>&, const Bounds& bounds) {
+  return kind_of(T{}, bounds);
+}
+
+template <class T>
+Fault read(const json& value, const Bounds& bounds, const std::string& path, std::optional<T>& to) {
+  return read(value, bounds, path, to.emplace());
+}
+
+template <class T>
+void write(const T& from, ordered_json& to) {
+  to = from;
+}
+void write(const bool& dynamic, ordered_json& to) { to = dynamic ? kDynamic : kKinematic; }
+template <class T>
+void write(const std::optional<T>& from, ordered_json& to) {
+  if (from) to = *from;
+}
+void write(const std::string& from, ordered_json& to) {
+  if (!from.empty()) to = from;
+}
+
+// --- The table ---
+
+enum class Presence { required, optional };
+
+/// A member of an operation and the member of the command that holds it.
+struct Field {
+  const char* name;
+  Presence presence;
+  Bounds bounds;
+  Fault (*read_into)(const Field& field, const json& value, Command& command);
+  void (*write_from)(const Command& command,
+                     ordered_json& value);  ///< leaves null where there is nothing to say
+  std::string (*kind)(const Bounds& bounds);
+};
+
+template <class C, class T>
+C command_of(T C::*);
+
+template <auto kMember>
+constexpr Field field(const char* name, Presence presence, Bounds bounds = {}) {
+  using C = decltype(command_of(kMember));
+  return {name,
+          presence,
+          bounds,
+          [](const Field& self, const json& value, Command& command) {
+            return read(value, self.bounds, pointer_to("", self.name), std::get<C>(command).*kMember);
+          },
+          [](const Command& command, ordered_json& value) { write(std::get<C>(command).*kMember, value); },
+          [](const Bounds& own) { return kind_of(C{}.*kMember, own); }};
+}
+
+/// One of the two and not both.
+Fault check_camera(const json&, Command& command) {
+  const auto& camera = std::get<Camera>(command);
+  if (camera.distance && camera.eye)
+    return JsonFault{"conflict", "/eye",
+                     "/eye is given beside /distance; allowed: exactly one of /distance and /eye"};
+  if (!camera.distance && !camera.eye)
+    return JsonFault{"missing", "/distance",
+                     "/distance is missing; allowed: exactly one of /distance and /eye"};
+  return {};
+}
+
+/// To unit length, by way of the largest component so that no square overflows or vanishes.
+Fault normalise_wind(const json& message, Command& command) {
+  auto& direction = std::get<WindSet>(command).direction;
+  double largest = 0;
+  for (const double component : direction) largest = std::max(largest, std::abs(component));
+  if (largest == 0)
+    return refuse("range", "/direction", message["direction"], "any direction but the zero vector");
+  double square = 0;
+  for (double& component : direction) {
+    component /= largest;
+    square += component * component;
+  }
+  for (double& component : direction) component /= std::sqrt(square);
+  return {};
+}
+
+struct Operation {
+  const char* name;
+  Command blank;
+  std::vector<Field> fields;
+  Fault (*finish)(const json& message, Command& command) = nullptr;  ///< what no single member can tell
+};
+
+/// In the order of Command's alternatives.
+const std::vector<Operation>& operations() {
+  constexpr auto kRequired = Presence::required, kOptional = Presence::optional;
+  constexpr Bounds kCharacters{1, 64}, kId{0, 4294967295};
+  constexpr Bounds kEye{-1e6, 1e6, "m"}, kPlace{-1e3, 1e3, "m"}, kVelocity{-200, 200, "m/s"};
+  static const std::vector<Operation> table{
+      {"hello",
+       Hello{},
+       {field<&Hello::client>("client", kOptional, kCharacters),
+        field<&Hello::caps>("caps", kOptional, kCharacters),
+        field<&Hello::window>("window", kOptional, {1, 8})}},
+      {"scene.list", SceneList{}, {}},
+      {"scene.join", SceneJoin{}, {field<&SceneJoin::scene>("scene", kRequired, kCharacters)}},
+      {"camera",
+       Camera{},
+       {field<&Camera::distance>("distance", kOptional, {0, 1e6, "m"}),
+        field<&Camera::eye>("eye", kOptional, kEye)},
+       check_camera},
+      {"ack", Ack{}, {field<&Ack::frame>("f", kRequired, kId)}},
+      {"ball.add",
+       BallAdd{},
+       {field<&BallAdd::position>("position", kRequired, kPlace),
+        field<&BallAdd::radius>("radius", kRequired, {0.01, 10, "m"}),
+        field<&BallAdd::velocity>("velocity", kOptional, kVelocity),
+        field<&BallAdd::dynamic>("motion", kOptional),
+        field<&BallAdd::mass>("mass", kOptional, {1e-3, 1e4, "kg"})}},
+      {"ball.move",
+       BallMove{},
+       {field<&BallMove::ball>("ball", kRequired, kId),
+        field<&BallMove::position>("position", kRequired, kPlace)}},
+      {"ball.throw",
+       BallThrow{},
+       {field<&BallThrow::ball>("ball", kRequired, kId),
+        field<&BallThrow::velocity>("velocity", kRequired, kVelocity)}},
+      {"ball.remove", BallRemove{}, {field<&BallRemove::ball>("ball", kRequired, kId)}},
+      {"wind.set",
+       WindSet{},
+       {field<&WindSet::direction>("direction", kRequired, {-1e6, 1e6}),
+        field<&WindSet::speed>("speed", kRequired, {0, 100, "m/s"})},
+       normalise_wind},
+      {"pause", Pause{}, {}},
+      {"resume", Resume{}, {}},
+      {"reset", Reset{}, {}},
+      {"step", Step{}, {field<&Step::count>("count", kOptional, {1, 600})}},
+      {"ping", Ping{}, {field<&Ping::t>("t", kRequired, {-1e15, 1e15})}},
+  };
+  return table;
+}
+
+template <class Items>
+std::string listed(const Items& items) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + std::string(item.name);
+  return text;
+}
+
+}  // namespace
+
+std::optional<JsonFault> read_command(const json& message, Request& request) {
+  if (!message.is_object())
+    return JsonFault{"bad_type", "", "the message is " + shown(message) + "; allowed: an object with op"};
+  if (const auto id = message.find("id"); id != message.end()) {
+    constexpr Bounds kRequestId{1, 2147483647};
+    if (auto fault = read(*id, kRequestId, "/id", request.id.emplace())) return fault;
+  }
+
+  const auto op = message.find("op");
+  if (op == message.end())
+    return JsonFault{"missing", "/op", "/op is missing; allowed: " + listed(operations())};
+  if (!op->is_string()) return refuse("bad_type", "/op", *op, listed(operations()));
+  const auto operation = std::find_if(operations().begin(), operations().end(),
+                                      [&](const Operation& known) { return *op == known.name; });
+  if (operation == operations().end()) return refuse("unknown_op", "/op", *op, listed(operations()));
+
+  for (const auto& [name, value] : message.items()) {
+    const bool known = name == "op" || name == "id" ||
+                       std::any_of(operation->fields.begin(), operation->fields.end(),
+                                   [&](const Field& field) { return name == field.name; });
+    if (!known) {
+      const std::string also = operation->fields.empty() ? "" : ", " + listed(operation->fields);
+      return refuse("unknown_member", pointer_to("", name), value,
+                    std::string("in ") + operation->name + " only op, id" + also);
+    }
+  }
+
+  request.command = operation->blank;
+  for (const Field& field : operation->fields) {
+    const auto value = message.find(field.name);
+    if (value != message.end()) {
+      if (auto fault = field.read_into(field, *value, request.command)) return fault;
+    } else if (field.presence == Presence::required) {
+      const std::string path = pointer_to("", field.name);
+      return JsonFault{"missing", path, path + " is missing; allowed: " + field.kind(field.bounds)};
+    }
+  }
+  return operation->finish != nullptr ? operation->finish(message, request.command) : Fault{};
+}
+
+void write_command(const Request& request, ordered_json& message) {
+  const Operation& operation = operations()[request.command.index()];
+  message["op"] = operation.name;
+  if (request.id) message["id"] = *request.id;
+  for (const Field& field : operation.fields) {
+    ordered_json value;
+    field.write_from(request.command, value);
+    if (!value.is_null()) message[field.name] = std::move(value);
+  }
+}
+
+}  // namespace weft::protocol

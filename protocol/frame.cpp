@@ -1,0 +1,236 @@
+#include "protocol/frame.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace weft::protocol {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "fields are stored as they lie in memory");
+
+constexpr std::array<std::uint8_t, 4> kMagic{'W', 'E', 'F', 'T'};
+constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2;
+constexpr std::size_t kBallBytes = 24, kMaxHeaderBytes = 256;
+
+/// Offsets of the header's fields.
+enum Offset : std::size_t {
+  kVersionAt = 4,
+  kTypeAt = 5,
+  kFlagsAt = 6,
+  kHeaderLengthAt = 8,
+  kCodecAt = 10,
+  kBitsAt = 11,
+  kClothAt = 12,
+  kFrameAt = 16,
+  kEpochAt = 20,
+  kTimeAt = 24,
+  kServerMsAt = 32,
+  kLevelAt = 36,
+  kSimulatedLevelAt = 37,
+  kColsAt = 40,
+  kRowsAt = 42,
+  kOriginAt = 44,
+  kQuantumAt = 56,
+  kPayloadLengthAt = 60,
+};
+
+template <class T>
+void put(std::uint8_t* record, std::size_t offset, T value) {
+  std::memcpy(record + offset, &value, sizeof value);
+}
+
+template <class T>
+T get(std::span<const std::uint8_t> bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+std::vector<std::uint8_t> header(const FrameStamp& stamp, std::uint8_t type, std::uint8_t codec,
+                                 std::size_t cols, std::size_t rows) {
+  std::vector<std::uint8_t> record(kHeaderBytes, 0);
+  std::memcpy(record.data(), kMagic.data(), kMagic.size());
+  put(record.data(), kVersionAt, kVersion);
+  put(record.data(), kTypeAt, type);
+  put(record.data(), kFlagsAt, stamp.flags);
+  put(record.data(), kHeaderLengthAt, static_cast<std::uint16_t>(kHeaderBytes));
+  put(record.data(), kCodecAt, codec);
+  put(record.data(), kFrameAt, stamp.frame);
+  put(record.data(), kEpochAt, stamp.epoch);
+  put(record.data(), kTimeAt, stamp.time);
+  put(record.data(), kServerMsAt, stamp.server_ms);
+  put(record.data(), kColsAt, static_cast<std::uint16_t>(cols));
+  put(record.data(), kRowsAt, static_cast<std::uint16_t>(rows));
+  return record;
+}
+
+void put_payload_length(std::vector<std::uint8_t>& record) {
+  put(record.data(), kPayloadLengthAt, static_cast<std::uint32_t>(record.size() - kHeaderBytes));
+}
+
+/// A lattice all of whose positions are finite floats.
+bool usable(const Quantisation& lattice) {
+  int exponent = 0;
+  if (!(lattice.quantum > 0) || !std::isfinite(lattice.quantum) ||
+      std::frexp(lattice.quantum, &exponent) != 0.5F)
+    return false;
+  const double reach = double(lattice.quantum) * double((1 << lattice.bits) - 1);
+  for (const float origin : lattice.origin) {
+    // Written so that a NaN fails too.
+    if (!(std::abs(double(origin)) + reach <= double(std::numeric_limits<float>::max()))) return false;
+  }
+  return true;
+}
+
+/// The records of one message, one after the other; the first fault ends it.
+class Reader {
+ public:
+  Reader(Frame& frame, std::string& error) : frame_(frame), error_(error) {}
+
+  bool read(std::span<const std::uint8_t> message) {
+    if (message.empty()) return fail("empty message");
+    for (bool last = false; !message.empty();) {
+      if (last) return fail("bytes after the last record");
+      if (message.size() < kHeaderBytes) return fail("header cut short");
+      if (std::memcmp(message.data(), kMagic.data(), kMagic.size()) != 0) return fail("wrong magic");
+      if (message[kVersionAt] != kVersion) return fail("version " + std::to_string(message[kVersionAt]));
+      const std::size_t header_bytes = get<std::uint16_t>(message, kHeaderLengthAt);
+      if (header_bytes < kHeaderBytes || header_bytes > kMaxHeaderBytes || header_bytes % 8 != 0)
+        return fail("header_length " + std::to_string(header_bytes));
+      if (message.size() < header_bytes) return fail("header cut short");
+      const std::size_t payload_bytes = get<std::uint32_t>(message, kPayloadLengthAt);
+      if (message.size() - header_bytes < payload_bytes) return fail("payload cut short");
+
+      last = (get<std::uint16_t>(message, kFlagsAt) & kFlagLast) != 0;
+      const auto payload = message.subspan(header_bytes, payload_bytes);
+      if (!stamp(message) || !record(message, payload)) return false;
+      message = message.subspan(header_bytes + payload_bytes);
+      if (message.empty() && !last) return fail("last record is missing");
+    }
+    return true;
+  }
+
+ private:
+  bool fail(std::string reason) {
+    error_ = std::move(reason);
+    return false;
+  }
+
+  /// All records of a message are of one step.
+  bool stamp(std::span<const std::uint8_t> header) {
+    FrameStamp stamp;
+    stamp.frame = get<std::uint32_t>(header, kFrameAt);
+    stamp.epoch = get<std::uint32_t>(header, kEpochAt);
+    stamp.time = get<double>(header, kTimeAt);
+    stamp.server_ms = get<std::uint32_t>(header, kServerMsAt);
+    stamp.flags = static_cast<std::uint16_t>(get<std::uint16_t>(header, kFlagsAt) & ~kFlagLast);
+    if (!std::isfinite(stamp.time)) return fail("time is not finite");
+    if (stamped_ && (stamp.frame != frame_.stamp.frame || stamp.epoch != frame_.stamp.epoch))
+      return fail("records of different steps");
+    if (!stamped_) frame_.stamp = stamp;
+    stamped_ = true;
+    return true;
+  }
+
+  bool record(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    switch (header[kTypeAt]) {
+      case kClothRecord:
+        return cloth(header, payload);
+      case kBallsRecord:
+        return balls(header, payload);
+      default:
+        return true;  // of a later minor version
+    }
+  }
+
+  bool cloth(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    if (header[kCodecAt] != kGridCodec) return fail("codec " + std::to_string(header[kCodecAt]));
+    ClothRecord cloth;
+    cloth.cloth = get<std::uint32_t>(header, kClothAt);
+    cloth.level = header[kLevelAt];
+    cloth.simulated_level = header[kSimulatedLevelAt];
+    cloth.cols = get<std::uint16_t>(header, kColsAt);
+    cloth.rows = get<std::uint16_t>(header, kRowsAt);
+    cloth.quantisation.bits = header[kBitsAt];
+    cloth.quantisation.origin = get<std::array<float, 3>>(header, kOriginAt);
+    cloth.quantisation.quantum = get<float>(header, kQuantumAt);
+    if (cloth.quantisation.bits < 8 || cloth.quantisation.bits > 16)
+      return fail(std::to_string(cloth.quantisation.bits) + " bits");
+    if (!usable(cloth.quantisation)) return fail("unusable origin or quantum");
+    if (!decode_grid(payload, cloth.rows, cloth.cols, cloth.quantisation, cloth.positions, error_))
+      return false;
+    frame_.cloths.push_back(std::move(cloth));
+    return true;
+  }
+
+  bool balls(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    if (header[kCodecAt] != kListCodec) return fail("codec " + std::to_string(header[kCodecAt]));
+    const std::size_t count = get<std::uint16_t>(header, kColsAt);
+    if (get<std::uint16_t>(header, kRowsAt) != 1) return fail("balls in more than one row");
+    if (payload.size() != count * kBallBytes) return fail("balls of another length than their number");
+    for (std::size_t at = 0; at < payload.size(); at += kBallBytes) {
+      FrameBall ball;
+      ball.id = get<std::uint32_t>(payload, at);
+      ball.position = get<std::array<float, 3>>(payload, at + 4);
+      ball.radius = get<float>(payload, at + 16);
+      const auto motion = get<std::uint32_t>(payload, at + 20);
+      for (const float value : ball.position)
+        if (!std::isfinite(value)) return fail("ball is not finite");
+      if (!std::isfinite(ball.radius)) return fail("ball is not finite");
+      if (motion > 1) return fail("ball with motion " + std::to_string(motion));
+      ball.dynamic = motion == 1;
+      frame_.balls.push_back(ball);
+    }
+    return true;
+  }
+
+  Frame& frame_;
+  std::string& error_;
+  bool stamped_ = false;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
+                                              int simulated_level, int bits, const GridView& grid) {
+  auto record = header(stamp, kClothRecord, kGridCodec, static_cast<std::size_t>(grid.cols),
+                       static_cast<std::size_t>(grid.rows));
+  const Quantisation quantisation = choose_quantisation(grid, bits);
+  put(record.data(), kBitsAt, static_cast<std::uint8_t>(bits));
+  put(record.data(), kClothAt, cloth);
+  put(record.data(), kLevelAt, static_cast<std::uint8_t>(level));
+  put(record.data(), kSimulatedLevelAt, static_cast<std::uint8_t>(simulated_level));
+  put(record.data(), kOriginAt, quantisation.origin);
+  put(record.data(), kQuantumAt, quantisation.quantum);
+  encode_grid(grid, quantisation, record);
+  put_payload_length(record);
+  return record;
+}
+
+std::vector<std::uint8_t> encode_balls_record(const FrameStamp& stamp, std::span<const FrameBall> balls) {
+  auto record = header(stamp, kBallsRecord, kListCodec, balls.size(), 1);
+  record.resize(kHeaderBytes + balls.size() * kBallBytes);
+  std::uint8_t* to = record.data() + kHeaderBytes;
+  for (const FrameBall& ball : balls) {
+    put(to, 0, ball.id);
+    put(to, 4, ball.position);
+    put(to, 16, ball.radius);
+    put(to, 20, std::uint32_t{ball.dynamic});
+    to += kBallBytes;
+  }
+  put_payload_length(record);
+  return record;
+}
+
+void mark_last(std::vector<std::uint8_t>& message, std::size_t offset) {
+  message[offset + kFlagsAt] |= static_cast<std::uint8_t>(kFlagLast);
+}
+
+bool decode_frame(std::span<const std::uint8_t> message, Frame& frame, std::string& error) {
+  frame = {};
+  return Reader(frame, error).read(message);
+}
+
+}  // namespace weft::protocol

@@ -1,0 +1,220 @@
+#include "protocol/grid_codec.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace weft::protocol {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "bits are packed with little-endian loads and stores");
+
+constexpr int kGroup = 16;  ///< values that share a width
+/// Residuals of 16-bit values lie within +-131070, so zig-zagged below 2^18.
+constexpr int kMaxWidth = 18;
+/// 60 nm: finer says nothing about a cloth, and far finer would leave the normal floats.
+constexpr int kMinQuantumExponent = -24;
+constexpr std::size_t kSlack = 8;  ///< whole words are loaded and stored, up to this far beyond the last bit
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t group_bytes(int values, int width) { return static_cast<std::size_t>((values * width + 7) / 8); }
+
+/// The row's values side by side: the storage itself where it is so already, else copied into `copy`.
+const float* row_of(const GridView& grid, std::size_t axis, int row, std::vector<float>& copy) {
+  const float* first = grid.data[axis] + row * grid.row_step;
+  if (grid.col_step == 1) return first;
+  for (int c = 0; c < grid.cols; ++c) copy[index(c)] = first[c * grid.col_step];
+  return copy.data();
+}
+
+struct Interval {
+  float low = std::numeric_limits<float>::infinity(), high = -std::numeric_limits<float>::infinity();
+};
+
+/// Eight running minima and maxima instead of one: one alone is a chain the compiler may not vectorise.
+Interval interval_of(const GridView& grid, std::size_t axis) {
+  constexpr int kLanes = 8;
+  std::array<Interval, kLanes> lanes;
+  std::array<float, kLanes> low, high;
+  low.fill(Interval{}.low);
+  high.fill(Interval{}.high);
+  std::vector<float> copy(grid.col_step == 1 ? 0 : index(grid.cols));
+  for (int r = 0; r < grid.rows; ++r) {
+    const float* row = row_of(grid, axis, r, copy);
+    int c = 0;
+    for (; c + kLanes <= grid.cols; c += kLanes) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const float value = row[c + lane];
+        low[index(lane)] = value < low[index(lane)] ? value : low[index(lane)];
+        high[index(lane)] = value > high[index(lane)] ? value : high[index(lane)];
+      }
+    }
+    for (; c < grid.cols; ++c) {
+      low[0] = std::min(low[0], row[c]);
+      high[0] = std::max(high[0], row[c]);
+    }
+  }
+  return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
+}
+
+/// `values` packed at `out`, which has kSlack bytes more than they need. Pairs, since two fit any word.
+void pack(const std::uint32_t* values, int count, int width, std::uint8_t* out) {
+  std::uint64_t word = 0;
+  int fill = 0;
+  for (int i = 0; i < count; i += 2) {
+    const std::uint64_t second = i + 1 < count ? values[i + 1] : 0;
+    word |= (values[i] | second << width) << fill;
+    fill += 2 * width;
+    std::memcpy(out, &word, sizeof word);
+    out += fill / 8;
+    word >>= fill & ~7;
+    fill &= 7;
+  }
+}
+
+void unpack(const std::uint8_t* in, int count, int width, std::uint32_t* values) {
+  const std::uint32_t mask = (1U << width) - 1;
+  for (int i = 0, bit = 0; i < count; ++i, bit += width) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, in + bit / 8, sizeof word);
+    values[i] = word >> (bit & 7) & mask;
+  }
+}
+
+std::uint32_t zigzag(std::int32_t e) {
+  return static_cast<std::uint32_t>(e) << 1 ^ static_cast<std::uint32_t>(e >> 31);
+}
+std::int32_t unzigzag(std::uint32_t z) {
+  return static_cast<std::int32_t>(z >> 1) ^ -static_cast<std::int32_t>(z & 1);
+}
+
+/// Zig-zagged residuals of one axis. With d = q - (q above), q - P is d - (d to the left).
+void residuals(const GridView& grid, std::size_t axis, const Quantisation& quantisation,
+               std::vector<std::uint32_t>& out) {
+  const double origin = double(quantisation.origin[axis]);
+  const double per_quantum = 1.0 / double(quantisation.quantum);  // exact: a power of two
+  const double top = double((1 << quantisation.bits) - 1);
+  const int cols = grid.cols;
+  std::vector<std::int32_t> above(index(cols), 0), here(index(cols)), difference(index(cols) + 1, 0);
+  std::vector<float> copy(grid.col_step == 1 ? 0 : index(cols));
+  for (int r = 0; r < grid.rows; ++r) {
+    const float* row = row_of(grid, axis, r, copy);
+    for (int c = 0; c < cols; ++c) {
+      const double q = (double(row[c]) - origin) * per_quantum + 0.5;
+      // Clamped in this order, a NaN becomes 0 instead of undefined behaviour.
+      here[index(c)] = static_cast<std::int32_t>(std::min(std::max(0.0, q), top));
+    }
+    for (int c = 0; c < cols; ++c) difference[index(c) + 1] = here[index(c)] - above[index(c)];
+    std::uint32_t* z = out.data() + index(r) * index(cols);
+    for (int c = 0; c < cols; ++c) z[c] = zigzag(difference[index(c) + 1] - difference[index(c)]);
+    std::swap(above, here);
+  }
+}
+
+}  // namespace
+
+Quantisation choose_quantisation(const GridView& grid, int bits) {
+  std::array<Interval, 3> box;
+  double extent = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box[axis] = interval_of(grid, axis);
+    extent = std::max(extent, double(box[axis].high) - double(box[axis].low));
+  }
+  const double top = double((1 << bits) - 1);
+  int exponent = kMinQuantumExponent;
+  if (extent > 0) exponent = std::max(exponent, std::ilogb(extent / top));
+  // A quantum of at least extent / top is needed, one more when the grid does not start on the lattice.
+  for (;; ++exponent) {
+    const double quantum = std::ldexp(1.0, exponent);
+    Quantisation chosen{bits, {}, static_cast<float>(quantum)};
+    bool covers = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Exact in f32: either the multiple has 24 bits at most, or the float `low` is a multiple itself.
+      const double origin = std::floor(double(box[axis].low) / quantum) * quantum;
+      chosen.origin[axis] = static_cast<float>(origin);
+      covers = covers && std::floor((double(box[axis].high) - origin) / quantum + 0.5) <= top;
+    }
+    if (covers) return chosen;
+  }
+}
+
+void encode_grid(const GridView& grid, const Quantisation& quantisation, std::vector<std::uint8_t>& out) {
+  const std::size_t nodes = index(grid.rows) * index(grid.cols);
+  const std::size_t groups = (nodes + kGroup - 1) / kGroup;
+  const std::size_t start = out.size();
+  out.resize(start + 3 * groups * (1 + group_bytes(kGroup, kMaxWidth)) + kSlack);
+  std::uint8_t* to = out.data() + start;
+  std::vector<std::uint32_t> z(nodes);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    residuals(grid, axis, quantisation, z);
+    for (std::size_t first = 0; first < nodes; first += kGroup) {
+      const int count = static_cast<int>(std::min<std::size_t>(kGroup, nodes - first));
+      std::uint32_t any = 0;
+      for (int i = 0; i < count; ++i) any |= z[first + index(i)];
+      const int width = static_cast<int>(std::bit_width(any));
+      *to++ = static_cast<std::uint8_t>(width);
+      pack(z.data() + first, count, width, to);
+      to += group_bytes(count, width);
+    }
+  }
+  out.resize(static_cast<std::size_t>(to - out.data()));
+}
+
+bool decode_grid(std::span<const std::uint8_t> payload, int rows, int cols, const Quantisation& quantisation,
+                 std::vector<float>& xyz, std::string& error) {
+  const auto fail = [&](std::string reason) {
+    error = std::move(reason);
+    return false;
+  };
+  if (rows < kMinSide || rows > kMaxSide || cols < kMinSide || cols > kMaxSide)
+    return fail("grid of " + std::to_string(rows) + " rows and " + std::to_string(cols) + " columns");
+  const std::size_t nodes = index(rows) * index(cols);
+  // A group is at least its width byte: no payload buys more memory than it is long.
+  if (payload.size() < 3 * ((nodes + kGroup - 1) / kGroup)) return fail("grid payload too short");
+
+  const auto top = static_cast<std::uint32_t>((1 << quantisation.bits) - 1);
+  xyz.resize(nodes * 3);
+  std::vector<std::uint32_t> z((nodes + kGroup - 1) / kGroup * kGroup);
+  std::vector<std::int32_t> above(index(cols));
+  std::size_t at = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t first = 0; first < nodes; first += kGroup) {
+      if (at == payload.size()) return fail("grid payload too short");
+      const int width = payload[at++];
+      if (width > kMaxWidth) return fail("group width " + std::to_string(width));
+      const int count = static_cast<int>(std::min<std::size_t>(kGroup, nodes - first));
+      const std::size_t bytes = group_bytes(count, width);
+      if (payload.size() - at < bytes) return fail("grid payload too short");
+      std::array<std::uint8_t, kGroup * kMaxWidth / 8 + kSlack> group{};
+      std::memcpy(group.data(), payload.data() + at, bytes);
+      at += bytes;
+      unpack(group.data(), count, width, z.data() + first);
+    }
+    std::fill(above.begin(), above.end(), 0);
+    for (int r = 0; r < rows; ++r) {
+      const std::uint32_t* residual = z.data() + index(r) * index(cols);
+      std::int32_t difference = 0;
+      bool outside = false;
+      for (int c = 0; c < cols; ++c) {
+        // A row drifts by less than 1025 * 2^17 before `outside` stops it: no overflow.
+        difference += unzigzag(residual[c]);
+        above[index(c)] += difference;
+        outside |= static_cast<std::uint32_t>(above[index(c)]) > top;
+      }
+      if (outside) return fail("value outside " + std::to_string(quantisation.bits) + " bits");
+      float* to = xyz.data() + index(r) * index(cols) * 3 + axis;
+      for (int c = 0; c < cols; ++c) {
+        const auto q = static_cast<std::uint32_t>(above[index(c)]);
+        to[c * 3] = static_cast<float>(quantisation.decode(static_cast<int>(axis), q));
+      }
+    }
+  }
+  if (at != payload.size())
+    return fail(std::to_string(payload.size() - at) + " bytes after the grid payload");
+  return true;
+}
+
+}  // namespace weft::protocol
