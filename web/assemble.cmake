@@ -1,0 +1,15 @@
+# cmake -D PAGE=dir -D OWN_FILES=... -D CLIENT_FILES=... -D THREE=dir -P assemble.cmake
+# Puts together the directory that is served. Every import in it is relative: the page runs without a bundler and without an
+# import map, which a strict content security policy would refuse.
+file(REMOVE_RECURSE ${PAGE})
+file(COPY ${OWN_FILES} DESTINATION ${PAGE})
+file(COPY ${CLIENT_FILES} DESTINATION ${PAGE}/protocol)
+file(COPY ${THREE}/build/three.module.js ${THREE}/build/three.core.js ${THREE}/LICENSE DESTINATION ${PAGE}/three)
+
+# The controls import the bare name 'three': the only line that is not as its authors wrote it.
+file(READ ${THREE}/examples/jsm/controls/OrbitControls.js controls)
+string(REPLACE "from 'three';" "from './three.module.js';" rewritten "${controls}")
+if(rewritten STREQUAL controls)
+  message(FATAL_ERROR "OrbitControls.js no longer imports from 'three': adapt web/assemble.cmake")
+endif()
+file(WRITE ${PAGE}/three/OrbitControls.js "${rewritten}")

@@ -1,0 +1,107 @@
+import {
+  BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshStandardMaterial,
+} from './three/three.module.js';
+import {centreOf, gridNormals, heightRange, materialCoordinates, sideIndices, triangleIndices} from './grid.js';
+import {Morph} from './morph.js';
+
+/** What all cloths of a page share: the fabric and the wireframe's ink. */
+export function clothMaterials(textures) {
+  const fabric = new MeshStandardMaterial({
+    map: textures.map,
+    bumpMap: textures.bumpMap,
+    bumpScale: 1.5,
+    roughness: 0.92,
+    metalness: 0,
+    side: DoubleSide,
+    // Pushed back a little so that the wireframe on the same surface wins.
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  const wire = new LineBasicMaterial({color: new Color(0xfff4d6), transparent: true, opacity: 0.85});
+  return {fabric, wire};
+}
+
+/** One cloth on the stage: takes frames, keeps a mesh of the level at hand. */
+export class ClothView {
+  /**
+   * @param {{cloth: number, name?: string, size: number[]}} description from the `scene` message
+   * @param {{fabric: MeshStandardMaterial, wire: LineBasicMaterial}} materials
+   * @param {boolean} instant no morph between levels
+   */
+  constructor(description, materials, instant) {
+    this.id = description.cloth;
+    this.name = description.name ?? `cloth ${description.cloth}`;
+    this.size = description.size;
+    this.materials = materials;
+    this.morph = new Morph(instant);
+    this.group = new Group();
+    this.rows = 0;
+    this.cols = 0;
+    /** The record of the newest frame shown: level, rows, cols, positions. */
+    this.record = null;
+    this.centre = null;
+  }
+
+  /**
+   * Shows the cloth between two records.
+   * @returns {boolean} whether the mesh still moves by itself (a morph is under way)
+   */
+  show(before, after, share, nowMs) {
+    const mesh = this.morph.update(before, after, share, nowMs);
+    if (mesh.rows !== this.rows || mesh.cols !== this.cols) this.#rebuild(mesh.rows, mesh.cols);
+    const {position, normal} = this.geometry.attributes;
+    position.array.set(mesh.positions);
+    gridNormals(mesh.positions, mesh.rows, mesh.cols, normal.array);
+    position.needsUpdate = true;
+    normal.needsUpdate = true;
+    this.record = after;
+    this.centre = centreOf(after.positions);
+    return this.morph.active;
+  }
+
+  /** Lowest and highest y shown. */
+  heights() {
+    return heightRange(this.geometry.attributes.position.array);
+  }
+
+  set wireframe(visible) {
+    this.wireframeVisible = visible;
+    if (this.lines) this.lines.visible = visible;
+  }
+
+  dispose() {
+    this.geometry?.dispose();
+    this.lines?.geometry.dispose();
+    this.group.removeFromParent();
+  }
+
+  #rebuild(rows, cols) {
+    this.geometry?.dispose();
+    this.lines?.geometry.dispose();
+    this.rows = rows;
+    this.cols = cols;
+    const dynamic = () => new BufferAttribute(new Float32Array(rows * cols * 3), 3).setUsage(DynamicDrawUsage);
+    const position = dynamic();
+    this.geometry = new BufferGeometry()
+      .setAttribute('position', position)
+      .setAttribute('normal', dynamic())
+      .setAttribute('uv', new BufferAttribute(materialCoordinates(rows, cols, ...this.size), 2))
+      .setIndex(new BufferAttribute(triangleIndices(rows, cols), 1));
+    const sides = new BufferGeometry()
+      .setAttribute('position', position)
+      .setIndex(new BufferAttribute(sideIndices(rows, cols), 1));
+    if (!this.mesh) {
+      this.mesh = new Mesh(this.geometry, this.materials.fabric);
+      this.mesh.castShadow = this.mesh.receiveShadow = true;
+      this.lines = new LineSegments(sides, this.materials.wire);
+      // The mesh moves every frame: bounds would have to be computed anew each time, for a thing nearly always in view.
+      this.mesh.frustumCulled = this.lines.frustumCulled = false;
+      this.lines.visible = this.wireframeVisible ?? false;
+      this.group.add(this.mesh, this.lines);
+    }
+    this.mesh.geometry = this.geometry;
+    this.lines.geometry = sides;
+  }
+}

@@ -1,0 +1,129 @@
+/**
+ * Arithmetic on a cloth's grid of nodes. Positions are x, y, z by node, row by row; row 0 is the top edge, column 0 is u = 0
+ * (protocol/PROTOCOL.md, section 4).
+ */
+
+/** Two triangles a cell, counter-clockwise seen from the side the cloth's face normal points to. */
+export function triangleIndices(rows, cols) {
+  const indices = new Uint32Array((rows - 1) * (cols - 1) * 6);
+  let at = 0;
+  for (let r = 0; r + 1 < rows; ++r) {
+    for (let c = 0; c + 1 < cols; ++c) {
+      const a = r * cols + c;
+      const below = a + cols;
+      indices.set([a, below, a + 1, a + 1, below, below + 1], at);
+      at += 6;
+    }
+  }
+  return indices;
+}
+
+/** The sides of the cells, without the triangles' diagonals: what the wireframe draws. */
+export function sideIndices(rows, cols) {
+  const indices = new Uint32Array(2 * (rows * (cols - 1) + cols * (rows - 1)));
+  let at = 0;
+  for (let r = 0; r < rows; ++r) {
+    for (let c = 0; c < cols; ++c) {
+      const a = r * cols + c;
+      if (c + 1 < cols) indices.set([a, a + 1], at), (at += 2);
+      if (r + 1 < rows) indices.set([a, a + cols], at), (at += 2);
+    }
+  }
+  return indices;
+}
+
+/** Texture coordinates in metres of cloth at rest, so that threads keep their width whatever the cloth's size and level. */
+export function materialCoordinates(rows, cols, width, height) {
+  const uv = new Float32Array(rows * cols * 2);
+  for (let r = 0, at = 0; r < rows; ++r) {
+    for (let c = 0; c < cols; ++c) {
+      uv[at++] = (c / (cols - 1)) * width;
+      uv[at++] = (1 - r / (rows - 1)) * height;
+    }
+  }
+  return uv;
+}
+
+/** Unit normals by central differences along the grid, one-sided at its edges. Writes into `normals`. */
+export function gridNormals(positions, rows, cols, normals) {
+  const stride = cols * 3;
+  for (let r = 0; r < rows; ++r) {
+    const up = r > 0 ? -stride : 0;
+    const down = r + 1 < rows ? stride : 0;
+    for (let c = 0; c < cols; ++c) {
+      const at = r * stride + c * 3;
+      const left = at - (c > 0 ? 3 : 0);
+      const right = at + (c + 1 < cols ? 3 : 0);
+      const ux = positions[right] - positions[left];
+      const uy = positions[right + 1] - positions[left + 1];
+      const uz = positions[right + 2] - positions[left + 2];
+      const vx = positions[at + up] - positions[at + down];
+      const vy = positions[at + up + 1] - positions[at + down + 1];
+      const vz = positions[at + up + 2] - positions[at + down + 2];
+      const nx = uy * vz - uz * vy;
+      const ny = uz * vx - ux * vz;
+      const nz = ux * vy - uy * vx;
+      const length = Math.hypot(nx, ny, nz) || 1;
+      normals[at] = nx / length;
+      normals[at + 1] = ny / length;
+      normals[at + 2] = nz / length;
+    }
+  }
+  return normals;
+}
+
+/** The same sheet one level finer: shared nodes keep their place, new ones are the mean of their neighbours (Eq. 8). */
+export function split(positions, rows, cols) {
+  const fineRows = 2 * rows - 1;
+  const fineCols = 2 * cols - 1;
+  const fine = new Float32Array(fineRows * fineCols * 3);
+  for (let r = 0; r < fineRows; ++r) {
+    const above = (r >> 1) * cols;
+    const below = ((r + 1) >> 1) * cols;
+    for (let c = 0; c < fineCols; ++c) {
+      const left = c >> 1;
+      const right = (c + 1) >> 1;
+      for (let axis = 0; axis < 3; ++axis) {
+        fine[(r * fineCols + c) * 3 + axis] =
+          (positions[(above + left) * 3 + axis] + positions[(above + right) * 3 + axis] +
+            positions[(below + left) * 3 + axis] + positions[(below + right) * 3 + axis]) / 4;
+      }
+    }
+  }
+  return {positions: fine, rows: fineRows, cols: fineCols};
+}
+
+/** `grid` split until it has `rows` rows; the same object when it already has. */
+export function splitTo(grid, rows) {
+  let finer = grid;
+  while (finer.rows < rows) finer = split(finer.positions, finer.rows, finer.cols);
+  return finer;
+}
+
+/** (1 - share) * a + share * b, element by element, into `out`. */
+export function mix(a, b, share, out) {
+  for (let i = 0; i < out.length; ++i) out[i] = a[i] + (b[i] - a[i]) * share;
+  return out;
+}
+
+/** Mean of the nodes: the centre from which Eq. 7 measures the camera's distance. */
+export function centreOf(positions) {
+  const nodes = positions.length / 3;
+  let x = 0, y = 0, z = 0;
+  for (let at = 0; at < positions.length; at += 3) {
+    x += positions[at];
+    y += positions[at + 1];
+    z += positions[at + 2];
+  }
+  return [x / nodes, y / nodes, z / nodes];
+}
+
+/** Lowest and highest y of the nodes. */
+export function heightRange(positions) {
+  let low = Infinity, high = -Infinity;
+  for (let at = 1; at < positions.length; at += 3) {
+    if (positions[at] < low) low = positions[at];
+    if (positions[at] > high) high = positions[at];
+  }
+  return [low, high];
+}

@@ -1,0 +1,251 @@
+import {BallHand} from './ball_hand.js';
+import {CameraRig, EyeReporter} from './camera_rig.js';
+import {Hud} from './hud.js';
+import {listenToKeys} from './keyboard.js';
+import {Link} from './link.js';
+import {Panel} from './panel.js';
+import {addressOfScene, readSettings} from './settings.js';
+import {Show} from './show.js';
+import {Stage} from './stage.js';
+
+const kBallRadius = 0.2;
+const kButtonThrow = 7;  // m/s
+
+const hud = new Hud();
+try {
+  start(readSettings(new URL(location.href), devicePixelRatio));
+} catch (error) {
+  hud.showConnection('refused');
+  hud.showBanner(`The page cannot start: ${error.message}`);
+}
+
+function start(settings) {
+  const instant = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  const canvas = document.getElementById('stage');
+  const stage = new Stage(canvas, settings);
+  const rig = new CameraRig(stage, instant);
+  const show = new Show(stage, {instant, wireframe: settings.wireframe});
+  const link = new Link();
+  const counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
+  let sceneShown = null;     // whose camera place was taken: a reconnection keeps the viewer's own
+  let chosenBall = null;
+  let retryAt = null;
+
+  // --- What the viewer wants ---
+
+  /** Sends a command; what goes wrong is told. */
+  const command = (message) =>
+    link.request(message).catch((error) => {
+      if (error.code !== 'closed') hud.toast(error.message);
+      return null;
+    });
+  const nearest = () => show.levels(rig.eye)[0];
+  const choose = (ball) => {
+    chosenBall = ball;
+    show.balls.select(ball);
+    stage.changed = true;
+  };
+  const actions = {
+    joinScene: async (scene) => {
+      if (!(await command({op: 'scene.join', scene}))) panel.setScenes(scenes, sceneShown);
+    },
+    setPaused: (paused) => command({op: paused ? 'pause' : 'resume'}),
+    step: () => command({op: 'step', count: 1}),
+    reset: () => command({op: 'reset'}),
+    goTo: (distance) => rig.goTo(distance),
+    setWireframe: (on) => {
+      show.setWireframe(on);
+      panel.setWireframe(on);
+    },
+    setWind: (direction, speed) => command({op: 'wind.set', direction, speed}),
+    addBall: async () => {
+      const reply = await command({op: 'ball.add', position: placeForBall(), radius: kBallRadius});
+      if (reply) choose(reply.ball);
+    },
+    removeBall: (ball) => command({op: 'ball.remove', ball}),
+    throwBall: (ball) => {
+      const from = show.balls.ball(ball)?.position;
+      const to = nearest()?.centre;
+      if (from && to) command({op: 'ball.throw', ball, velocity: aimed(from, to, kButtonThrow)});
+    },
+    chooseBall: choose,
+    moveBall: (ball, position) => command({op: 'ball.move', ball, position}),
+  };
+  let scenes = [];
+  const panel = new Panel(actions);
+  panel.setWireframe(settings.wireframe);
+  new BallHand(stage, show.balls, {
+    move: actions.moveBall,
+    throw: (ball, velocity) => command({op: 'ball.throw', ball, velocity}),
+    taken: choose,
+    holding: (holds) => (rig.controls.enabled = !holds),
+  });
+  listenToKeys(rig, {
+    'w': () => actions.setWireframe(!show.wireframe),
+    ' ': () => link.connected && actions.setPaused(!panel.paused),
+    '.': () => link.connected && panel.paused && actions.step(),
+    'r': () => link.connected && actions.reset(),
+  });
+
+  /** Where a new ball hangs: between the camera and the nearest cloth, off its surface. */
+  function placeForBall() {
+    const centre = nearest()?.centre ?? [0, 0, 0];
+    const away = rig.eye.map((value, axis) => value - centre[axis]);
+    const distance = Math.hypot(...away);
+    const reach = Math.min(0.8, 0.6 * distance);
+    return centre.map((value, axis) => value + (away[axis] / distance) * reach);
+  }
+
+  // --- What the server says ---
+
+  const eye = new EyeReporter((place) => command({op: 'camera', eye: place}));
+
+  link.addEventListener('state', ({detail}) => {
+    hud.showConnection(detail.state);
+    panel.setLive(detail.state === 'open');
+    retryAt = null;
+    if (detail.state === 'open') {
+      hud.showBanner(null);
+      hud.showNotice(null);
+      eye.forget();
+      command({op: 'scene.list'}).then((reply) => reply && panel.setScenes((scenes = reply.scenes), sceneShown));
+    } else if (detail.state === 'lost') {
+      retryAt = performance.now() + detail.retryMs;
+      hud.lostReason = detail.reason;
+    } else if (detail.state === 'refused') {
+      hud.showBanner(detail.reason);
+      panel.setScenes((scenes = detail.scenes), null);
+      document.getElementById('scene').disabled = false;
+    }
+  });
+
+  const handlers = {
+    scene: (message) => {
+      show.begin(message);
+      eye.forget();
+      if (sceneShown !== message.name) {
+        rig.place(message.camera.eye ?? [0, 0, message.camera.distance], message.camera.target ?? [0, 0, 0]);
+        history.replaceState(null, '', addressOfScene(new URL(location.href), message.name));
+      }
+      sceneShown = message.name;
+      link.remember(message.name);
+      document.title = `${message.title || message.name} · Weft`;
+      panel.setScenes(scenes, message.name);
+      panel.setTitle(message.title);
+      panel.setPaused(message.paused);
+      panel.setWind(show.wind, show.hasWind);
+      hud.showNotice(null);
+    },
+    event: (message) => {
+      if (message.wind) {
+        show.setWind(message.wind);
+        panel.setWind(show.wind, show.hasWind);
+      }
+      if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
+      if (message.kind === 'reset') hud.showNotice(null);
+    },
+    stats: (message) => hud.showStats(message, nearest()?.cloth ?? 0),
+    notice: (message) => {
+      if (message.code === 'real_time') hud.showNotice(null);
+      else hud.showNotice(message.message);
+    },
+    round_trip: (message) => hud.showRoundTrip(message.ms),
+  };
+  link.addEventListener('message', ({detail}) => handlers[detail.op]?.(detail));
+  link.addEventListener('frame', ({detail}) => {
+    counts.frames += 1;
+    counts.total += 1;
+    counts.bytes += detail.bytes;
+    show.push(detail.frame, detail.arrivedMs);
+  });
+
+  hud.onRetry(() => link.retry());
+  addEventListener('online', () => link.retry());
+  document.addEventListener('visibilitychange', () => document.hidden || link.retry());
+
+  // --- The picture ---
+
+  function draw(nowMs) {
+    requestAnimationFrame(draw);
+    show.update(nowMs, performance.timeOrigin + nowMs);
+    const levels = show.levels(rig.eye);
+    if (levels.length > 0) {
+      rig.setCentre(levels[0].centre);
+      hud.showLevels(levels, show.levelRange(levels[0].cloth));
+      hud.showClock(show.stamp.time);
+      if (link.connected) eye.update(rig.eye, nowMs);
+    }
+    rig.update(nowMs);
+    showBalls();
+    showWaiting(nowMs);
+    showRates(nowMs);
+    if (!stage.changed) return;
+    counts.drawn += 1;
+    stage.draw();
+  }
+
+  function showBalls() {
+    const {ids} = show.balls;
+    if (chosenBall === null || !ids.includes(chosenBall)) choose(ids[0] ?? null);
+    panel.setBalls(ids, chosenBall);
+    panel.setBallPlace(show.balls.ball(chosenBall)?.position);
+  }
+
+  function showWaiting(nowMs) {
+    if (retryAt === null) return;
+    const seconds = Math.max(0, Math.ceil((retryAt - nowMs) / 1000));
+    hud.showBanner(`${hud.lostReason} ${seconds > 0 ? `Next attempt in ${seconds} s.` : 'Connecting …'}`, true);
+  }
+
+  function showRates(nowMs) {
+    const seconds = (nowMs - counts.sinceMs) / 1000;
+    if (seconds < 1) return;
+    hud.showRates({...counts, seconds});
+    Object.assign(counts, {frames: 0, bytes: 0, drawn: 0, sinceMs: nowMs});
+  }
+
+  requestAnimationFrame(draw);
+  link.open(settings.server, settings.scene);
+  publishHook({link, show, rig, stage, counts});
+}
+
+/** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
+function aimed(from, to, speed) {
+  const way = to.map((value, axis) => value - from[axis]);
+  const distance = Math.hypot(...way) || 1;
+  const velocity = way.map((value) => (value / distance) * speed);
+  velocity[1] += 0.5 * 9.81 * (distance / speed);
+  return velocity;
+}
+
+/** `window.weft`: what tests and the curious read. */
+function publishHook({link, show, rig, stage, counts}) {
+  window.weft = {
+    get stats() {
+      return {
+        connected: link.connected,
+        scene: show.description?.name ?? null,
+        frames: counts.total,
+        cloths: show.levels(rig.eye),
+        balls: show.balls.ids.map((id) => show.balls.ball(id)),
+        distance: rig.distance,
+        lastFrame: show.timeline.newest?.stamp ?? null,
+        wind: show.wind,
+      };
+    },
+    /** Newest decoded positions of a cloth, as plain numbers. */
+    positions(cloth = 0) {
+      const record = show.timeline.newest?.cloths.find((each) => each.cloth === cloth);
+      return record ? Array.from(record.positions) : null;
+    },
+    setCameraDistance(distance) {
+      rig.goTo(distance);
+    },
+    /** Where a point of the scene is on the page, CSS pixels. */
+    toPage([x, y, z]) {
+      const point = stage.camera.position.clone().set(x, y, z).project(stage.camera);
+      const {clientWidth, clientHeight} = stage.renderer.domElement;
+      return [((point.x + 1) / 2) * clientWidth, ((1 - point.y) / 2) * clientHeight];
+    },
+  };
+}

@@ -1,0 +1,179 @@
+import {anglesOf, directionOf} from './wind_angles.js';
+
+const byId = (id) => document.getElementById(id);
+const kWindMs = 60;  // between two wind.set while a slider moves
+
+/**
+ * The controls. They show what the server says, and tell `actions` what the viewer wants; they change nothing by themselves.
+ *
+ * @typedef {object} Actions
+ * @property {(scene: string) => void} joinScene
+ * @property {(paused: boolean) => void} setPaused
+ * @property {() => void} step
+ * @property {() => void} reset
+ * @property {(distance: number) => void} goTo
+ * @property {(on: boolean) => void} setWireframe
+ * @property {(direction: number[], speed: number) => void} setWind
+ * @property {() => void} addBall
+ * @property {(ball: number) => void} removeBall
+ * @property {(ball: number) => void} throwBall
+ * @property {(ball: number) => void} chooseBall
+ * @property {(ball: number, position: number[]) => void} moveBall
+ */
+export class Panel {
+  /** @param {Actions} actions */
+  constructor(actions) {
+    this.actions = actions;
+    this.paused = false;
+    this.ballIds = [];
+    this.#wireButtons();
+    this.#wireWind();
+    this.#wireBalls();
+    this.#wireFold();
+    this.setLive(false);
+  }
+
+  /** Controls work only while connected. */
+  setLive(live) {
+    this.live = live;
+    for (const id of ['pause', 'reset', 'scene', 'ball-add']) byId(id).disabled = !live;
+    byId('step').disabled = !live || !this.paused;
+    this.#enableWind();
+    this.#enableBalls();
+  }
+
+  setScenes(scenes, current) {
+    const select = byId('scene');
+    const options = scenes.map(({name}) => name);
+    if (current && !options.includes(current)) options.unshift(current);
+    if ([...select.options].map((option) => option.value).join() !== options.join()) {
+      select.replaceChildren(...scenes.map(({name, title}) => Object.assign(new Option(name, name), {title: title ?? ''})));
+      if (select.options.length < options.length) select.prepend(new Option(current, current));
+    }
+    if (current) select.value = current;
+  }
+
+  setTitle(title) {
+    byId('scene-title').textContent = title ?? '';
+  }
+
+  setPaused(paused) {
+    this.paused = paused;
+    const button = byId('pause');
+    button.textContent = paused ? 'Resume' : 'Pause';
+    button.setAttribute('aria-pressed', String(paused));
+    byId('step').disabled = !this.live || !paused;
+  }
+
+  setWireframe(on) {
+    byId('wireframe').checked = on;
+  }
+
+  /** @param {{direction: number[], speed: number}} wind @param {boolean} available whether the scene has an effect of wind */
+  setWind(wind, available) {
+    this.windAvailable = available;
+    byId('wind-absent').hidden = available;
+    this.#enableWind();
+    // A slider under the viewer's hand is not pulled away.
+    if (!byId('wind').contains(document.activeElement) || performance.now() > (this.windTouchedMs ?? 0) + 600) {
+      const {heading, tilt} = anglesOf(wind.direction);
+      byId('wind-speed').max = String(Math.max(20, Math.ceil(wind.speed)));
+      byId('wind-speed').value = String(wind.speed);
+      // Straight up or down has no heading: the slider stays where it was.
+      if (Math.abs(tilt) < 90) byId('wind-heading').value = String(heading);
+      byId('wind-tilt').value = String(tilt);
+      this.#showWind();
+    }
+  }
+
+  /** @param {number[]} ids the scene's balls @param {number|null} chosen */
+  setBalls(ids, chosen) {
+    const select = byId('ball');
+    if (ids.join() !== this.ballIds.join()) {
+      this.ballIds = ids;
+      select.replaceChildren(...ids.map((id) => new Option(`ball ${id}`, String(id))));
+    }
+    if (chosen !== null && select.value !== String(chosen)) select.value = String(chosen);
+    this.#enableBalls();
+  }
+
+  /** Place of the chosen ball; a field being typed in is left alone. */
+  setBallPlace(position) {
+    for (const input of byId('ball-place').querySelectorAll('input')) {
+      const text = position ? position[Number(input.dataset.axis)].toFixed(2) : '';
+      if (input !== document.activeElement && input.value !== text) input.value = text;
+    }
+  }
+
+  #chosenBall() {
+    return Number(byId('ball').value);
+  }
+
+  #enableWind() {
+    for (const input of byId('wind').querySelectorAll('input')) input.disabled = !this.live || !this.windAvailable;
+  }
+
+  #enableBalls() {
+    const none = !this.live || this.ballIds.length === 0;
+    for (const id of ['ball-remove', 'ball-throw', 'ball']) byId(id).disabled = none;
+    for (const input of byId('ball-place').querySelectorAll('input')) input.disabled = none;
+  }
+
+  #wireButtons() {
+    const {actions} = this;
+    byId('scene').addEventListener('change', (event) => actions.joinScene(event.target.value));
+    byId('pause').addEventListener('click', () => actions.setPaused(!this.paused));
+    byId('step').addEventListener('click', () => actions.step());
+    byId('reset').addEventListener('click', () => actions.reset());
+    byId('wireframe').addEventListener('change', (event) => actions.setWireframe(event.target.checked));
+    byId('jumps').addEventListener('click', (event) => {
+      const {distance} = event.target.dataset;
+      if (distance) actions.goTo(Number(distance));
+    });
+  }
+
+  #wireWind() {
+    let timer = null;
+    const send = () => {
+      timer = null;
+      this.actions.setWind(
+        directionOf(Number(byId('wind-heading').value), Number(byId('wind-tilt').value)), Number(byId('wind-speed').value));
+    };
+    byId('wind').addEventListener('input', () => {
+      this.windTouchedMs = performance.now();
+      this.#showWind();
+      timer ??= setTimeout(send, kWindMs);
+    });
+  }
+
+  #showWind() {
+    const [speed, heading, tilt] = ['wind-speed', 'wind-heading', 'wind-tilt'].map((id) => Number(byId(id).value));
+    byId('wind-speed-value').textContent = `${speed.toFixed(1)} m/s`;
+    byId('wind-heading-value').textContent = `${heading}°`;
+    byId('wind-tilt-value').textContent = `${tilt}°`;
+    byId('compass-needle').style.transform = `rotate(${heading}deg)`;
+  }
+
+  #wireBalls() {
+    const {actions} = this;
+    byId('ball-add').addEventListener('click', () => actions.addBall());
+    byId('ball-remove').addEventListener('click', () => actions.removeBall(this.#chosenBall()));
+    byId('ball-throw').addEventListener('click', () => actions.throwBall(this.#chosenBall()));
+    byId('ball').addEventListener('change', () => actions.chooseBall(this.#chosenBall()));
+    byId('ball-place').addEventListener('change', () => {
+      const values = [...byId('ball-place').querySelectorAll('input')].map((input) => input.valueAsNumber);
+      if (values.every(Number.isFinite)) actions.moveBall(this.#chosenBall(), values);
+    });
+  }
+
+  #wireFold() {
+    const button = byId('fold');
+    const fold = (hidden) => {
+      byId('controls-body').hidden = hidden;
+      button.setAttribute('aria-expanded', String(!hidden));
+      button.textContent = hidden ? 'Show' : 'Hide';
+    };
+    button.addEventListener('click', () => fold(!byId('controls-body').hidden));
+    fold(matchMedia('(max-width: 640px)').matches);
+  }
+}

@@ -1,0 +1,50 @@
+/** What the page's address may say. See README, "The page". */
+
+/**
+ * @typedef {object} Settings
+ * @property {string} server address of the service, "ws://host:port" without a path
+ * @property {string|null} scene name of the scene; null: the first one the service lists
+ * @property {boolean} antialias
+ * @property {boolean} shadows
+ * @property {number} pixelRatio device pixels a CSS pixel
+ * @property {boolean} wireframe
+ */
+
+/**
+ * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, and `?quality=low` for machines that draw without a
+ * graphics card (no antialiasing, no shadows, one device pixel a pixel).
+ * @param {URL} address the page's own
+ * @param {number} devicePixelRatio
+ * @returns {Settings}
+ */
+export function readSettings(address, devicePixelRatio) {
+  const parameters = address.searchParams;
+  const high = parameters.get('quality') !== 'low';
+  return {
+    server: serverAddress(parameters.get('server'), address),
+    scene: parameters.get('scene') || null,
+    antialias: high,
+    shadows: high,
+    // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
+    pixelRatio: high ? Math.min(devicePixelRatio, 2) : 1,
+    wireframe: parameters.get('wireframe') === '1',
+  };
+}
+
+/** The service's address as ws: or wss:, without a trailing slash; the page's own host when none is given. */
+function serverAddress(given, address) {
+  const url = new URL(given || address.origin, address);
+  if (url.protocol === 'http:') url.protocol = 'ws:';
+  if (url.protocol === 'https:') url.protocol = 'wss:';
+  if (url.protocol !== 'ws:' && url.protocol !== 'wss:') {
+    throw new Error(`server=${given} is not an address like ws://host:8080`);
+  }
+  return `${url.protocol}//${url.host}${url.pathname.replace(/\/+$/, '')}`;
+}
+
+/** The address under which this page shows `scene`: what a reload or a copied link gives. */
+export function addressOfScene(address, scene) {
+  const next = new URL(address);
+  next.searchParams.set('scene', scene);
+  return next;
+}

@@ -1,0 +1,136 @@
+import {BallsView} from './balls_view.js';
+import {ClothView, clothMaterials} from './cloth_view.js';
+import {Timeline} from './timeline.js';
+import {weaveTextures} from './weave.js';
+import {WindArrow} from './wind_arrow.js';
+
+const kWindEffects = ['paper_wind', 'aerodynamics'];
+const kFabric = {warp: [38, 78, 128], weft: [64, 112, 168], stripe: [240, 228, 204]};
+
+const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - centre[1], eye[2] - centre[2]);
+
+/** One scene on the stage, as the server's messages and frames tell it. */
+export class Show {
+  /**
+   * @param {import('./stage.js').Stage} stage
+   * @param {{instant: boolean, wireframe: boolean}} options
+   */
+  constructor(stage, options) {
+    this.stage = stage;
+    this.instant = options.instant;
+    this.wireframe = options.wireframe;
+    this.timeline = new Timeline();
+    this.balls = new BallsView();
+    this.arrow = new WindArrow();
+    this.materials = clothMaterials(weaveTextures(kFabric, stage.renderer.capabilities.getMaxAnisotropy()));
+    stage.scene.add(this.balls.group, this.arrow.group);
+    /** @type {Map<number, ClothView>} */
+    this.cloths = new Map();
+    this.description = null;
+    this.wind = {direction: [0, 0, -1], speed: 0};
+    this.framesShown = 0;
+    this.moving = false;
+  }
+
+  /** Takes a `scene` message: everything of the scene before is gone. */
+  begin(message) {
+    this.description = message;
+    this.timeline.clear();
+    for (const view of this.cloths.values()) view.dispose();
+    this.cloths.clear();
+    this.balls.clear();
+    for (const description of message.cloths) {
+      const view = new ClothView(description, this.materials, this.instant);
+      view.wireframe = this.wireframe;
+      this.stage.scene.add(view.group);
+      this.cloths.set(view.id, view);
+    }
+    this.setWind(message.wind);
+    this.framesShown = 0;
+    this.stage.changed = true;
+  }
+
+  get hasWind() {
+    return this.description?.effects.some((effect) => kWindEffects.includes(effect)) ?? false;
+  }
+
+  setWind(wind) {
+    if (!wind) return;
+    this.wind = wind;
+    this.arrow.set(wind.direction, this.hasWind ? wind.speed : 0);
+    this.stage.changed = true;
+  }
+
+  setWireframe(on) {
+    this.wireframe = on;
+    for (const view of this.cloths.values()) view.wireframe = on;
+    this.stage.changed = true;
+  }
+
+  push(frame, arrivedMs) {
+    this.timeline.push(frame, arrivedMs);
+    this.moving = true;
+  }
+
+  /** Shows the moment `nowMs` (drawing time) of the buffer, whose clock reads `bufferMs`. */
+  update(nowMs, bufferMs) {
+    if (!this.moving) return;
+    const moment = this.timeline.sample(bufferMs);
+    if (!moment || !this.description) return;
+    const {before, after, share} = moment;
+    let morphing = false;
+    for (const record of after.cloths) {
+      const view = this.cloths.get(record.cloth);
+      if (!view) continue;
+      const earlier = before.cloths.find((each) => each.cloth === record.cloth) ?? record;
+      morphing = view.show(earlier, record, share, nowMs) || morphing;
+    }
+    this.balls.show(before.balls ?? [], after.balls ?? [], share);
+    this.stamp = after.stamp;
+    this.#arrange(this.framesShown++ === 0);
+    this.moving = morphing || !moment.settled;
+    this.stage.changed = true;
+  }
+
+  /** Cloths with their distance from `eye`, the nearest first: what the badge shows. */
+  levels(eye) {
+    return [...this.cloths.values()]
+      .filter((view) => view.record)
+      .map((view) => ({
+        cloth: view.id, name: view.name, level: view.record.level, simulatedLevel: view.record.simulatedLevel,
+        rows: view.record.rows, cols: view.record.cols, centre: view.centre, distance: distanceTo(eye, view.centre),
+      }))
+      .sort((a, b) => a.distance - b.distance);
+  }
+
+  /** Levels a cloth can have. */
+  levelRange(cloth) {
+    const {min_level: minLevel, max_level: maxLevel} = this.description.cloths.find((each) => each.cloth === cloth);
+    return {minLevel, maxLevel};
+  }
+
+  /** Ground, light and arrow: set once a scene; the ground then gives way to a cloth that comes lower. */
+  #arrange(first) {
+    let low = Infinity, high = -Infinity, extent = 0;
+    for (const view of this.cloths.values()) {
+      if (!view.record) continue;
+      const [least, most] = view.heights();
+      low = Math.min(low, least);
+      high = Math.max(high, most);
+      extent = Math.max(extent, ...view.size);
+    }
+    if (extent === 0) return;
+    for (const id of this.balls.ids) {
+      const {position, radius} = this.balls.ball(id);
+      // A thrown ball falls for ever: only those near the cloth count.
+      if (first) low = Math.min(low, position[1] - radius);
+    }
+    const {centre} = this.cloths.values().next().value;
+    if (first) {
+      this.stage.frame(centre, extent, low - 0.25 * extent);
+      this.arrow.place(centre[0], high + 0.22 * extent, centre[2]);
+    } else if (low < this.stage.groundHeight + 0.02) {
+      this.stage.lowerGroundTo(low - 0.02);
+    }
+  }
+}
