@@ -40,6 +40,7 @@ class Cloth {
   std::vector<std::unique_ptr<Effect<Real>>> effects_;
   std::unique_ptr<Integrator<Real>> integrator_;
   std::unique_ptr<BallContact<Real>> contact_;  ///< made when the scene first has a ball
+  ContactCounters earlier_contacts_;            ///< at the levels left behind
 };
 
 extern template class Cloth<float>;

@@ -35,22 +35,28 @@ class Colliders {
   const Ball* find(BallId id) const;
 
   BallId add(const BallDescription& ball);
-  /// The ball becomes kinematic, goes to `target` within the next step and stays there. False if there is no such ball.
+  /// The ball becomes kinematic, goes to `target` within the next step and stays there. False if there is no
+  /// such ball.
   bool move(BallId id, const Vec3& target);
   /// The ball becomes dynamic and flies off. False if there is no such ball.
   bool throw_ball(BallId id, const Vec3& velocity);
   bool remove(BallId id);
 
-  /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its velocity.
+  /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
+  /// velocity.
   void begin_step(double time, double dt, const Vec3& gravity);
   /// Dynamic balls take up the impulses the cloths gave them.
   void end_step();
 
  private:
+  /// Where a ball was told to go. Kept for one step after it got there, to bring it to rest.
   struct Target {
-    BallId id;
+    BallId ball;
     Vec3 position;
+    bool reached;
   };
+  void forget_target(BallId id);
+
   std::vector<Ball> balls_;
   std::vector<Target> targets_;
   BallId next_id_ = 1;

@@ -29,13 +29,14 @@ struct DampingEffect {
 /// Eq. 4: F = lambda N on every particle. N is the wind's direction; the force grows linearly with the wind's
 /// speed and is Eq. 4 exactly at 1 m/s, which is what the paper's presets have.
 struct PaperWindEffect {
-  double factor = 1.0;   ///< lambda, N at 1 m/s: per particle (paper) or per m2 (continuum); finite, >= 0
-  bool along_normal = false;  ///< true reads "unit normal vector" as the cloth's: N is the surface normal, turned downwind
+  double factor = 1.0;  ///< lambda, N at 1 m/s: per particle (paper) or per m2 (continuum); finite, >= 0
+  bool along_normal =
+      false;  ///< true reads "unit normal vector" as the cloth's: N is the surface normal, turned downwind
   static constexpr const char* kName = "paper_wind";
 };
 
-/// Pressure of moving air on a face: F/A = 1/2 rho C |w_n| w_n n with w = wind - velocity, w_n = w . n (flat plate).
-/// A sheet falling face on reaches sqrt(2 rho_cloth g / (rho C)), T16 in the truths.
+/// Pressure of moving air on a face: F/A = 1/2 rho C |w_n| w_n n with w = wind - velocity, w_n = w . n (flat
+/// plate). A sheet falling face on reaches sqrt(2 rho_cloth g / (rho C)), T16 in the truths.
 struct AerodynamicsEffect {
   double air_density = 1.225;  ///< kg/m3
   double drag = 1.2;           ///< C, dimensionless
@@ -64,12 +65,13 @@ struct ClothDescription {
   Vec2 size{2.0, 2.0};  ///< width (along u) and height (along v), m; > 0
   BaseCells base_cells;
   /// The cloth lies in its local x-y plane, centred, u along +x, v along -y (it hangs), face normal +z.
-  Vec3 position{0.0, 0.0, 0.0};                       ///< of the centre, m
-  Quaternion orientation = Quaternion::Identity();    ///< local to world
-  std::vector<Vec3> nodes;  ///< start positions at initial_level, row by row, instead of the flat sheet; empty: flat.
-                            ///< Rest lengths always come from `size`.
+  Vec3 position{0.0, 0.0, 0.0};                     ///< of the centre, m
+  Quaternion orientation = Quaternion::Identity();  ///< local to world
+  std::vector<Vec3> nodes;  ///< start positions in the world at initial_level, row by row; empty: the flat
+                            ///< sheet. Rest lengths always come from `size`.
   Vec3 velocity{0.0, 0.0, 0.0};  ///< of every free node at the start, m/s
-  double perturbation = 0.0;     ///< random offset of each free node along the normal at the start, up to this, m
+  double perturbation =
+      0.0;  ///< random offset of each free node along the sheet's local z at the start, up to this, m
   int min_level = 4, max_level = 6, initial_level = 6;
   Material material;
   Discretization discretization = Discretization::continuum;
@@ -99,8 +101,8 @@ struct BallDescription {
 
 /// The paper's explicit method, Eq. 6.
 struct SymplecticEulerDescription {
-  int substeps = 0;       ///< per step; 0 chooses the fewest that keep the stiffest mode stable
-  double safety = 0.9;    ///< with substeps = 0: share of the stability limit used, (0, 1]
+  int substeps = 0;     ///< per step; 0 chooses the fewest that keep the stiffest mode stable
+  double safety = 0.9;  ///< with substeps = 0: share of the stability limit used, (0, 1]
   static constexpr const char* kName = "symplectic_euler";
 };
 using IntegratorDescription = std::variant<SymplecticEulerDescription>;

@@ -6,20 +6,21 @@ namespace weft {
 
 /// How constants become masses and springs of a level (design decision D4; physics.md A).
 enum class Discretization {
-  paper,      ///< every node weighs m_total / n (Eq. 9), every spring has the material's constant at each level
-  continuum,  ///< border nodes weigh 1/2 (corners 1/4), border springs are half as stiff, spring constants follow
-              ///< from the sheet's stiffness and the cell's shape: all levels approach one sheet
+  paper,  ///< every node weighs m_total / n (Eq. 9), every spring has the material's constant at each level
+  continuum,  ///< border nodes weigh 1/2 (corners 1/4), border springs are half as stiff, spring constants
+              ///< follow from the sheet's stiffness and the cell's shape: all levels approach one sheet
 };
 
 /// What a cloth is made of. With Discretization::paper the three stiffnesses are Eq. 1's spring constants
 /// K(i,j) in N/m, the same at every level. With continuum they are the sheet's own, in N/m (force per width
 /// per strain), and the constants of a level follow from them (springs.h).
 struct Material {
-  double density = 0.1;       ///< areal density, kg/m2; finite and > 0
-  double structural = 5000;   ///< N/m, along warp and weft; >= 0. Higher stretches less and needs more substeps.
-  double shear = 500;         ///< N/m, along the diagonals; >= 0
-  double bending = 5;         ///< N/m, springs to the second neighbour; >= 0
-  double damping = 0.1;       ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
+  double density = 0.1;  ///< areal density, kg/m2; finite and > 0
+  double structural =
+      5000;              ///< N/m, along warp and weft; >= 0. Higher stretches less and needs more substeps.
+  double shear = 500;    ///< N/m, along the diagonals; >= 0
+  double bending = 5;    ///< N/m, springs to the second neighbour; >= 0
+  double damping = 0.1;  ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
   bool operator==(const Material&) const = default;
 };
 

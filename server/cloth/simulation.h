@@ -26,8 +26,8 @@ struct ClothReport {
   StructuralStrain strain;
 };
 
-/// A scene being simulated: cloths, balls, wind, and the step. Deterministic: the same description and the same calls
-/// between the same steps give the same bits. Not thread-safe; one owner calls it.
+/// A scene being simulated: cloths, balls, wind, and the step. Deterministic: the same description and the
+/// same calls between the same steps give the same bits. Not thread-safe; one owner calls it.
 template <class Real>
 class Simulation {
  public:

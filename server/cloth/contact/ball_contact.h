@@ -9,12 +9,18 @@ namespace weft {
 struct ContactCounters {
   std::uint64_t tiles_examined = 0;  ///< tiles whose nodes were tested against a ball
   std::uint64_t nodes_tested = 0;
-  std::uint64_t nodes_in_contact = 0;  ///< node-ball contacts resolved
+  std::uint64_t nodes_in_contact = 0;  ///< nodes found inside a ball and brought out
+
+  friend ContactCounters operator+(const ContactCounters& a, const ContactCounters& b) {
+    return {a.tiles_examined + b.tiles_examined, a.nodes_tested + b.nodes_tested,
+            a.nodes_in_contact + b.nodes_in_contact};
+  }
 };
 
-/// The paper's section 2.4, second half: in the struck tiles a particle inside a ball is pushed back to its surface and
-/// loses the part of its velocity, relative to the ball, that points into it. A particle at the very centre leaves
-/// upwards. Pinned nodes stay. The momentum taken is given to dynamic balls (Ball::impulse).
+/// The paper's section 2.4, second half: in the struck tiles a particle inside a ball is pushed back to its
+/// surface and loses the part of its velocity, relative to the ball, that points into it. A particle at the
+/// very centre leaves upwards. Pinned nodes stay. The momentum taken is given to dynamic balls
+/// (Ball::impulse).
 template <class Real>
 class BallContact {
  public:

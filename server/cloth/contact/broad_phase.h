@@ -20,8 +20,9 @@ struct TileBallPair {
   int ball = 0;
 };
 
-/// The paper's section 2.4, first half: a hierarchy of axis-aligned boxes over cloth tiles and balls (FCL's dynamic
-/// AABB tree) removes the parts that cannot touch. One per cloth and level; FCL is seen only by its .cpp.
+/// The paper's section 2.4, first half: a hierarchy of axis-aligned boxes over cloth tiles and balls (FCL's
+/// dynamic AABB tree) removes the parts that cannot touch. One per cloth and level; FCL is seen only by its
+/// .cpp.
 template <class Real>
 class BroadPhase {
  public:
@@ -31,10 +32,10 @@ class BroadPhase {
   BroadPhase& operator=(BroadPhase&&) noexcept;
 
   const std::vector<Tile>& tiles() const;
-  /// The pairs whose boxes overlap, with balls swept over `from`..`to` of the step (fractions 0..1), ordered by tile,
-  /// then ball. Valid until the next call.
-  const std::vector<TileBallPair>& find_pairs(const VectorField<Real>& position, const std::vector<Ball>& balls,
-                                              double from, double to);
+  /// The pairs whose boxes overlap, with balls swept over `from`..`to` of the step (fractions 0..1), ordered
+  /// by tile, then ball. Valid until the next call.
+  const std::vector<TileBallPair>& find_pairs(const VectorField<Real>& position,
+                                              const std::vector<Ball>& balls, double from, double to);
 
  private:
   struct Impl;

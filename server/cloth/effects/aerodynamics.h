@@ -17,4 +17,7 @@ class Aerodynamics final : public Effect<Real> {
   AerodynamicsEffect parameters_;
 };
 
+extern template class Aerodynamics<float>;
+extern template class Aerodynamics<double>;
+
 }  // namespace weft

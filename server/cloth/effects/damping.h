@@ -3,7 +3,8 @@
 
 namespace weft {
 
-/// Eq. 3, F = -k v, k = Material::damping per particle (paper) or per area (continuum: k times the area the node represents).
+/// Eq. 3, F = -k v, k = Material::damping per particle (paper) or per area (continuum: k times the area the
+/// node represents).
 template <class Real>
 class Damping final : public Effect<Real> {
  public:
@@ -16,5 +17,8 @@ class Damping final : public Effect<Real> {
  private:
   DampingEffect parameters_;
 };
+
+extern template class Damping<float>;
+extern template class Damping<double>;
 
 }  // namespace weft

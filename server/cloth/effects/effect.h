@@ -23,9 +23,13 @@ class Effect {
   /// Adds this effect's force on every node, N.
   virtual void add_forces(const Particles<Real>& particles, const EffectContext& context,
                           VectorField<Real>& force) const = 0;
-  /// Largest damping rate -dF/dv / m of any node, 1/s: what an explicit step must respect. 0 for forces without v.
+  /// Largest damping rate -dF/dv / m of any node, 1/s: what an explicit step must respect. 0 for forces
+  /// without v.
   virtual double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const;
 };
+
+extern template class Effect<float>;
+extern template class Effect<double>;
 
 /// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
 template <class Real>

@@ -16,4 +16,7 @@ class Gravity final : public Effect<Real> {
   GravityEffect parameters_;
 };
 
+extern template class Gravity<float>;
+extern template class Gravity<double>;
+
 }  // namespace weft

@@ -16,4 +16,7 @@ class PaperWind final : public Effect<Real> {
   PaperWindEffect parameters_;
 };
 
+extern template class PaperWind<float>;
+extern template class PaperWind<double>;
+
 }  // namespace weft

@@ -26,14 +26,15 @@ struct AdvanceReport {
   double contact_seconds = 0;  ///< wall time
 };
 
-/// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods; it keeps its own
-/// work arrays and no state that the particles do not show.
+/// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods; it
+/// keeps its own work arrays and no state that the particles do not show.
 template <class Real>
 class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual const char* name() const = 0;
-  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; `balls` have begun the step.
+  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; `balls` have begun the
+  /// step.
   virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
                                 std::vector<Ball>& balls, double time, double dt) = 0;
 };

@@ -3,13 +3,14 @@
 
 namespace weft {
 
-/// Substeps for which v += a h, r += v h is stable for a mode of squared frequency w2 (1/s2) and damping rate c (1/s):
-/// the smallest n with w2 h^2 + 2 c h <= 4 safety^2, h = dt / n (from the roots of z^2 - (2 - c h - w2 h^2) z + 1 - c h).
-/// At least 1, at most kMaxSubsteps.
+/// Substeps for which v += a h, r += v h is stable for a mode of squared frequency w2 (1/s2) and damping rate
+/// c (1/s): the smallest n with w2 h^2 + 2 c h <= 4 safety^2, h = dt / n (from the roots of z^2 - (2 - c h -
+/// w2 h^2) z + 1 - c h). At least 1, at most kMaxSubsteps.
 int stable_substeps(double squared_frequency, double damping_rate, double dt, double safety);
 inline constexpr int kMaxSubsteps = 10000;
 
-/// Eq. 6 in the paper's order: a = F/m, then v += a h, then r += v h with the new v; then section 2.4's collisions.
+/// Eq. 6 in the paper's order: a = F/m, then v += a h, then r += v h with the new v; then section 2.4's
+/// collisions.
 template <class Real>
 class SymplecticEuler final : public Integrator<Real> {
  public:
@@ -22,5 +23,8 @@ class SymplecticEuler final : public Integrator<Real> {
   SymplecticEulerDescription description_;
   VectorField<Real> force_;
 };
+
+extern template class SymplecticEuler<float>;
+extern template class SymplecticEuler<double>;
 
 }  // namespace weft

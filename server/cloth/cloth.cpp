@@ -1,0 +1,165 @@
+#include "cloth/cloth.h"
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+#include "cloth/refine.h"
+
+namespace weft {
+namespace {
+
+/// Uniform in [-1, 1) from the generator's upper 53 bits: the standard fixes the generator's bits, not a
+/// distribution's.
+double symmetric_uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
+}
+
+/// Calls visit(r, c, u, v) for every node, row by row, (u, v) its place on the sheet.
+template <class Visit>
+void for_each_node(const Grid& grid, Visit visit) {
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      visit(r, c, static_cast<double>(c) / (grid.cols - 1), static_cast<double>(r) / (grid.rows - 1));
+    }
+  }
+}
+
+template <class Real>
+void set(VectorField<Real>& field, int r, int c, const Vec3& value) {
+  field.x.at(r, c) = static_cast<Real>(value.x());
+  field.y.at(r, c) = static_cast<Real>(value.y());
+  field.z.at(r, c) = static_cast<Real>(value.z());
+}
+
+/// Sets inverse masses: 0 for the nodes the pin regions hold.
+template <class Real>
+void pin(const std::vector<PinRegion>& pins, Particles<Real>& particles) {
+  const Grid& grid = particles.grid();
+  for_each_node(grid, [&](int r, int c, double, double) {
+    particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
+  });
+  constexpr double kTolerance = 1e-9;
+  for (const PinRegion& region : pins) {
+    bool any = false;
+    for_each_node(grid, [&](int r, int c, double u, double v) {
+      if (u < region.u_min - kTolerance || u > region.u_max + kTolerance || v < region.v_min - kTolerance ||
+          v > region.v_max + kTolerance) {
+        return;
+      }
+      particles.inverse_mass.at(r, c) = 0;
+      any = true;
+    });
+    if (any) continue;
+    const auto nearest = [](double low, double high, int nodes) {
+      return std::clamp(static_cast<int>(std::lround(0.5 * (low + high) * (nodes - 1))), 0, nodes - 1);
+    };
+    particles.inverse_mass.at(nearest(region.v_min, region.v_max, grid.rows),
+                              nearest(region.u_min, region.u_max, grid.cols)) = 0;
+  }
+  for_each_node(grid, [&](int r, int c, double, double) {
+    if (particles.inverse_mass.at(r, c) == Real(0)) set(particles.velocity, r, c, Vec3::Zero());
+  });
+}
+
+/// Start positions, without the random offsets.
+template <class Real>
+void place(const ClothDescription& description, Particles<Real>& particles) {
+  const Grid& grid = particles.grid();
+  if (!description.nodes.empty() && description.nodes.size() != static_cast<std::size_t>(grid.nodes())) {
+    throw std::invalid_argument("a cloth needs as many start positions as it has nodes at its initial level");
+  }
+  for_each_node(grid, [&](int r, int c, double u, double v) {
+    if (description.nodes.empty()) {
+      const Vec3 local((u - 0.5) * description.size.x(), (0.5 - v) * description.size.y(), 0.0);
+      set(particles.position, r, c, description.position + description.orientation * local);
+    } else {
+      set(particles.position, r, c, description.nodes[static_cast<std::size_t>(r * grid.cols + c)]);
+    }
+  });
+}
+
+/// Moves each free node by up to `perturbation` along the sheet's local z. Every node draws, pinned or not,
+/// so that pins do not change what the others get.
+template <class Real>
+void perturb(const ClothDescription& description, std::uint64_t seed, Particles<Real>& particles) {
+  if (description.perturbation == 0) return;
+  std::mt19937_64 random(seed);
+  const Vec3 normal = description.orientation * Vec3(0, 0, 1);
+  for_each_node(particles.grid(), [&](int r, int c, double, double) {
+    const double offset = description.perturbation * symmetric_uniform(random);
+    if (particles.inverse_mass.at(r, c) > Real(0)) {
+      set(particles.position, r, c, particles.position_at(r, c) + offset * normal);
+    }
+  });
+}
+
+}  // namespace
+
+template <class Real>
+Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
+                   const IntegratorDescription& integrator, std::uint64_t seed)
+    : description_(description),
+      total_mass_(description.material.density * description.size.x() * description.size.y()),
+      effects_(make_effects<Real>(effects)),
+      integrator_(make_integrator<Real>(integrator)) {
+  const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
+  Particles<Real> particles(description_.base_cells.at(level));
+  place(description_, particles);
+  for_each_node(particles.grid(),
+                [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
+  enter_level(level, std::move(particles));
+  perturb(description_, seed, particles_);
+}
+
+template <class Real>
+ContactCounters Cloth<Real>::contact_counters() const {
+  return contact_ ? earlier_contacts_ + contact_->counters() : earlier_contacts_;
+}
+
+template <class Real>
+void Cloth<Real>::request_level(int level) {
+  pending_level_ = std::clamp(level, description_.min_level, description_.max_level);
+}
+
+template <class Real>
+bool Cloth<Real>::apply_pending_level() {
+  const int target = pending_level_.value_or(level_);
+  pending_level_.reset();
+  const bool changes = target != level_;
+  while (level_ != target) {
+    const int next = level_ < target ? level_ + 1 : level_ - 1;
+    Particles<Real> particles(description_.base_cells.at(next));
+    if (next > level_) {
+      split(particles_, particles);
+    } else {
+      merge(particles_, particles);
+    }
+    enter_level(next, std::move(particles));
+  }
+  return changes;
+}
+
+template <class Real>
+void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
+  level_ = level;
+  particles_ = std::move(particles);
+  mass_distribution(total_mass_, description_.discretization, particles_.mass);
+  pin(description_.pins, particles_);
+  springs_ =
+      Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
+  earlier_contacts_ = contact_counters();
+  contact_.reset();
+}
+
+template <class Real>
+AdvanceReport Cloth<Real>::advance(std::vector<Ball>& balls, const Wind& wind, double time, double dt) {
+  if (!balls.empty() && !contact_) contact_ = std::make_unique<BallContact<Real>>(particles_.grid());
+  const Forces<Real> forces{&springs_, &effects_, {&description_, &wind, time}};
+  return integrator_->advance(particles_, forces, balls.empty() ? nullptr : contact_.get(), balls, time, dt);
+}
+
+template class Cloth<float>;
+template class Cloth<double>;
+
+}  // namespace weft

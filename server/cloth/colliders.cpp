@@ -1,0 +1,112 @@
+#include "cloth/colliders.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+Vec3 along_path(const std::vector<Waypoint>& path, double time) {
+  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& p) { return p.time > time; });
+  if (next == path.begin()) return next->position;
+  const Waypoint& before = *std::prev(next);
+  if (next == path.end()) return before.position;
+  return before.position +
+         (time - before.time) / (next->time - before.time) * (next->position - before.position);
+}
+
+template <class Balls>
+auto find_ball(Balls& balls, BallId id) {
+  return std::find_if(balls.begin(), balls.end(), [&](const Ball& ball) { return ball.id == id; });
+}
+
+}  // namespace
+
+Colliders::Colliders(const std::vector<BallDescription>& balls) {
+  for (const BallDescription& ball : balls) add(ball);
+}
+
+const Ball* Colliders::find(BallId id) const {
+  const auto found = find_ball(balls_, id);
+  return found == balls_.end() ? nullptr : &*found;
+}
+
+BallId Colliders::add(const BallDescription& description) {
+  Ball ball;
+  ball.id = next_id_++;
+  ball.motion = description.motion;
+  ball.radius = description.radius;
+  ball.mass = description.mass;
+  ball.path = description.path;
+  ball.position = description.path.empty() ? description.position : description.path.front().position;
+  ball.start = ball.position;
+  if (description.path.empty()) ball.velocity = description.velocity;
+  balls_.push_back(std::move(ball));
+  return balls_.back().id;
+}
+
+bool Colliders::move(BallId id, const Vec3& target) {
+  const auto ball = find_ball(balls_, id);
+  if (ball == balls_.end()) return false;
+  ball->motion = BallDescription::Motion::kinematic;
+  ball->path.clear();
+  forget_target(id);
+  targets_.push_back({id, target, false});
+  return true;
+}
+
+bool Colliders::throw_ball(BallId id, const Vec3& velocity) {
+  const auto ball = find_ball(balls_, id);
+  if (ball == balls_.end()) return false;
+  ball->motion = BallDescription::Motion::dynamic;
+  ball->path.clear();
+  ball->velocity = velocity;
+  forget_target(id);
+  return true;
+}
+
+bool Colliders::remove(BallId id) {
+  const auto ball = find_ball(balls_, id);
+  if (ball == balls_.end()) return false;
+  balls_.erase(ball);
+  forget_target(id);
+  return true;
+}
+
+void Colliders::forget_target(BallId id) {
+  std::erase_if(targets_, [&](const Target& target) { return target.ball == id; });
+}
+
+void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
+  for (Ball& ball : balls_) {
+    ball.start = ball.position;
+    ball.impulse.setZero();
+    if (!ball.path.empty()) {
+      ball.start = along_path(ball.path, time);
+      ball.position = along_path(ball.path, time + dt);
+      ball.velocity = (ball.position - ball.start) / dt;
+      continue;
+    }
+    if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += gravity * dt;
+    const auto target =
+        std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.ball == ball.id; });
+    if (target == targets_.end()) {
+      ball.position += ball.velocity * dt;
+    } else if (target->reached) {
+      ball.velocity.setZero();
+      targets_.erase(target);
+    } else {
+      ball.position = target->position;
+      ball.velocity = (ball.position - ball.start) / dt;
+      target->reached = true;
+    }
+  }
+}
+
+void Colliders::end_step() {
+  for (Ball& ball : balls_) {
+    if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += ball.impulse / ball.mass;
+    ball.impulse.setZero();
+  }
+}
+
+}  // namespace weft

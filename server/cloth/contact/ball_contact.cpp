@@ -1,0 +1,158 @@
+#include "cloth/contact/ball_contact.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace weft {
+namespace {
+
+/// Projections onto one ball after another before a node between overlapping balls is led straight out of all
+/// of them.
+constexpr int kProjections = 4;
+
+/// A ball where it is at the end of the substep.
+struct PlacedBall {
+  Vec3 centre;
+  double squared_radius;
+};
+
+/// One node's state while it is resolved.
+template <class Real>
+class Node {
+ public:
+  Node(Particles<Real>& particles, int row, int col)
+      : particles_(particles), row_(row), col_(col), position_(particles.position_at(row, col)) {}
+
+  const Vec3& position() const { return position_; }
+  bool inside(const PlacedBall& ball) const {
+    return (position_ - ball.centre).squaredNorm() < ball.squared_radius;
+  }
+
+  /// To centre + distance * direction, or as little further as the node's precision needs to end up outside.
+  void put_outside(const PlacedBall& ball, const Vec3& from, const Vec3& direction, double distance) {
+    double margin = 0;
+    const double least = distance * double(std::numeric_limits<Real>::epsilon()) / 4;
+    do {
+      const Vec3 target = from + (distance + margin) * direction;
+      set_position(target);
+      margin = std::max(2 * margin, least);
+    } while (inside(ball));
+  }
+
+  /// Takes away the velocity, relative to the ball's, that points against `normal`; the ball gets its
+  /// momentum.
+  void stop_inward_velocity(Ball& ball, const Vec3& normal) {
+    const Vec3 velocity = particles_.velocity_at(row_, col_);
+    const double inward = (velocity - ball.velocity).dot(normal);
+    if (!(inward < 0)) return;
+    const Vec3 stopped = velocity - inward * normal;
+    particles_.velocity.x.at(row_, col_) = static_cast<Real>(stopped.x());
+    particles_.velocity.y.at(row_, col_) = static_cast<Real>(stopped.y());
+    particles_.velocity.z.at(row_, col_) = static_cast<Real>(stopped.z());
+    if (ball.motion == BallDescription::Motion::dynamic) {
+      ball.impulse += double(particles_.mass.at(row_, col_)) * inward * normal;
+    }
+  }
+
+ private:
+  void set_position(const Vec3& target) {
+    particles_.position.x.at(row_, col_) = static_cast<Real>(target.x());
+    particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
+    particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
+    position_ = particles_.position_at(row_, col_);
+  }
+
+  Particles<Real>& particles_;
+  int row_, col_;
+  Vec3 position_;
+};
+
+/// From the centre to the point; upwards at the very centre.
+Vec3 outwards(const Vec3& centre, const Vec3& point) {
+  const Vec3 offset = point - centre;
+  const double length = offset.norm();
+  return length > 0 ? Vec3(offset / length) : Vec3(0, 1, 0);
+}
+
+/// Where the ray from `origin`, which lies in the ball, leaves it: the distance along the unit `direction`.
+double way_out(const PlacedBall& ball, const Vec3& origin, const Vec3& direction) {
+  const Vec3 offset = origin - ball.centre;
+  const double along = offset.dot(direction);
+  return -along + std::sqrt(std::max(0.0, along * along - offset.squaredNorm() + ball.squared_radius));
+}
+
+/// Brings a node that is inside some ball to the surface of all of them.
+template <class Real>
+void resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed) {
+  Vec3 middle(0, 0, 0);  // of the balls it was found in
+  int found = 0;
+  for (int round = 0; round < kProjections; ++round) {
+    bool moved = false;
+    for (std::size_t b = 0; b < placed.size(); ++b) {
+      if (!node.inside(placed[b])) continue;
+      const Vec3 normal = outwards(placed[b].centre, node.position());
+      node.put_outside(placed[b], placed[b].centre, normal, balls[b].radius);
+      node.stop_inward_velocity(balls[b], normal);
+      middle += placed[b].centre;
+      ++found;
+      moved = true;
+    }
+    if (!moved) return;
+  }
+  // Overlapping balls hand it to each other. Along a ray away from them no ball is entered twice.
+  middle /= found;
+  const Vec3 direction = outwards(middle, node.position());
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const PlacedBall& ball : placed) {
+      if (!node.inside(ball)) continue;
+      const Vec3 origin = node.position();
+      node.put_outside(ball, origin, direction, way_out(ball, origin, direction));
+      moved = true;
+    }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to) {
+  const std::vector<TileBallPair>& pairs = broad_phase_.find_pairs(particles.position, balls, from, to);
+  if (pairs.empty()) return 0;
+  std::vector<PlacedBall> placed;
+  for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius * ball.radius});
+
+  const Grid& grid = particles.grid();
+  int in_contact = 0;
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
+    while (end < pairs.size() && pairs[end].tile == pairs[begin].tile) ++end;
+    const Tile& tile = broad_phase_.tiles()[static_cast<std::size_t>(pairs[begin].tile)];
+    ++counters_.tiles_examined;
+    // A border node that two tiles share is looked at in the one below or to the right, whose box holds it as
+    // well.
+    const int row_end = tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1;
+    const int col_end = tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1;
+    for (int r = tile.row_begin; r < row_end; ++r) {
+      for (int c = tile.col_begin; c < col_end; ++c) {
+        ++counters_.nodes_tested;
+        if (particles.inverse_mass.at(r, c) == Real(0)) continue;
+        Node<Real> node(particles, r, c);
+        const bool inside =
+            std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
+                        pairs.begin() + static_cast<std::ptrdiff_t>(end), [&](const TileBallPair& pair) {
+                          return node.inside(placed[static_cast<std::size_t>(pair.ball)]);
+                        });
+        if (!inside) continue;
+        resolve_node(node, balls, placed);
+        ++in_contact;
+      }
+    }
+  }
+  counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
+  return in_contact;
+}
+
+template class BallContact<float>;
+template class BallContact<double>;
+
+}  // namespace weft

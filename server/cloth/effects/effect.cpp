@@ -1,0 +1,52 @@
+#include "cloth/effects/effect.h"
+
+#include "cloth/effects/aerodynamics.h"
+#include "cloth/effects/damping.h"
+#include "cloth/effects/gravity.h"
+#include "cloth/effects/paper_wind.h"
+
+namespace weft {
+namespace {
+
+/// Which class simulates which description.
+template <class Real>
+struct Maker {
+  using Made = std::unique_ptr<Effect<Real>>;
+  Made operator()(const GravityEffect& e) const { return std::make_unique<Gravity<Real>>(e); }
+  Made operator()(const DampingEffect& e) const { return std::make_unique<Damping<Real>>(e); }
+  Made operator()(const PaperWindEffect& e) const { return std::make_unique<PaperWind<Real>>(e); }
+  Made operator()(const AerodynamicsEffect& e) const { return std::make_unique<Aerodynamics<Real>>(e); }
+};
+
+}  // namespace
+
+template <class Real>
+double Effect<Real>::max_damping_rate(const Particles<Real>&, const EffectContext&) const {
+  return 0;
+}
+
+template <class Real>
+std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions) {
+  std::vector<std::unique_ptr<Effect<Real>>> effects;
+  for (const EffectDescription& description : descriptions) {
+    effects.push_back(std::visit(Maker<Real>{}, description));
+  }
+  return effects;
+}
+
+Vec3 total_gravity(const std::vector<EffectDescription>& descriptions) {
+  Vec3 sum(0, 0, 0);
+  for (const EffectDescription& description : descriptions) {
+    if (const auto* gravity = std::get_if<GravityEffect>(&description)) sum += gravity->acceleration;
+  }
+  return sum;
+}
+
+template class Effect<float>;
+template class Effect<double>;
+template std::vector<std::unique_ptr<Effect<float>>> make_effects<float>(
+    const std::vector<EffectDescription>&);
+template std::vector<std::unique_ptr<Effect<double>>> make_effects<double>(
+    const std::vector<EffectDescription>&);
+
+}  // namespace weft

@@ -1,0 +1,28 @@
+#include "cloth/integrators/integrator.h"
+
+#include "cloth/integrators/symplectic_euler.h"
+
+namespace weft {
+
+template <class Real>
+void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& force) const {
+  force.fill(Real(0));
+  springs->add_forces(particles.position, force);
+  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+std::unique_ptr<Integrator<Real>> make_integrator(const IntegratorDescription& description) {
+  return std::visit(
+      [](const SymplecticEulerDescription& d) -> std::unique_ptr<Integrator<Real>> {
+        return std::make_unique<SymplecticEuler<Real>>(d);
+      },
+      description);
+}
+
+template struct Forces<float>;
+template struct Forces<double>;
+template std::unique_ptr<Integrator<float>> make_integrator<float>(const IntegratorDescription&);
+template std::unique_ptr<Integrator<double>> make_integrator<double>(const IntegratorDescription&);
+
+}  // namespace weft

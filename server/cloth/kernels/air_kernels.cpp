@@ -1,0 +1,187 @@
+#include "cloth/kernels/air_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth/multiversion.h"
+
+namespace weft::kernels {
+namespace {
+
+/// Faces or nodes handled at a time; their forces stay in the first-level cache between the passes.
+constexpr int kBlock = 128;
+
+/// Twice the area vector of the face below and right of index i (its front is the sheet's), and four times
+/// the mean velocity of its corners: exact factors are left to the caller.
+template <class Real>
+struct Face {
+  Real ax, ay, az;
+  Real vx, vy, vz;
+};
+
+template <class Real>
+[[gnu::always_inline]] inline Face<Real> face_at(const Components<const Real>& p,
+                                                 const Components<const Real>& v, std::size_t i,
+                                                 std::size_t stride) {
+  const std::size_t right = i + 1, below = i + stride, across = i + stride + 1;
+  const Real ux = p.x[across] - p.x[i], uy = p.y[across] - p.y[i], uz = p.z[across] - p.z[i];
+  const Real wx = p.x[right] - p.x[below], wy = p.y[right] - p.y[below], wz = p.z[right] - p.z[below];
+  return {uy * wz - uz * wy,
+          uz * wx - ux * wz,
+          ux * wy - uy * wx,
+          (v.x[i] + v.x[right]) + (v.x[below] + v.x[across]),
+          (v.y[i] + v.y[right]) + (v.y[below] + v.y[across]),
+          (v.z[i] + v.z[right]) + (v.z[below] + v.z[across])};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void pressure_block(const Components<const Real>& p,
+                                                  const Components<const Real>& v, std::size_t first,
+                                                  std::size_t stride, int count, const Air<Real>& air,
+                                                  Real factor, Real* __restrict fx, Real* __restrict fy,
+                                                  Real* __restrict fz) {
+  const Real smallest = std::numeric_limits<Real>::min();
+  for (int c = 0; c < count; ++c) {
+    const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
+    const Real wx = air.x - face.vx * Real(0.25);
+    const Real wy = air.y - face.vy * Real(0.25);
+    const Real wz = air.z - face.vz * Real(0.25);
+    const Real flow = wx * face.ax + wy * face.ay + wz * face.az;
+    const Real squared = face.ax * face.ax + face.ay * face.ay + face.az * face.az;
+    // (flow/2)^2 (a/2) / (|a|/2)^2 is half of flow^2 a / |a|^2, and a quarter of it goes to each corner.
+    const Real scale =
+        Real(0.125) * factor * std::abs(flow) * flow / (squared > smallest ? squared : smallest);
+    fx[c] = scale * face.ax;
+    fy[c] = scale * face.ay;
+    fz[c] = scale * face.az;
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_block(Real* __restrict target, const Real* __restrict block,
+                                             int count) {
+  for (int c = 0; c < count; ++c) target[c] += block[c];
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_pressure(const Grid& grid, const Components<const Real>& p,
+                                                const Components<const Real>& v, const Air<Real>& air,
+                                                Real factor, const Components<Real>& force) {
+  alignas(64) Real fx[kBlock];
+  alignas(64) Real fy[kBlock];
+  alignas(64) Real fz[kBlock];
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (int r = 0; r + 1 < grid.rows; ++r) {
+    for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
+      const int count = std::min(kBlock, grid.cols - 1 - begin);
+      const std::size_t first = grid.index(r, begin);
+      pressure_block(p, v, first, stride, count, air, factor, fx, fy, fz);
+      for (const std::size_t corner : {first, first + 1, first + stride, first + stride + 1}) {
+        add_block(force.x + corner, fx, count);
+        add_block(force.y + corner, fy, count);
+        add_block(force.z + corner, fz, count);
+      }
+    }
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Real max_flow(const Grid& grid, const Components<const Real>& p,
+                                            const Components<const Real>& v, const Air<Real>& air) {
+  // One running maximum per lane: a single one would have to be compared in order.
+  alignas(64) Real most[kBlock] = {};
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (int r = 0; r + 1 < grid.rows; ++r) {
+    for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
+      const int count = std::min(kBlock, grid.cols - 1 - begin);
+      const std::size_t first = grid.index(r, begin);
+      for (int c = 0; c < count; ++c) {
+        const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
+        const Real flow =
+            std::abs((air.x - face.vx * Real(0.25)) * face.ax + (air.y - face.vy * Real(0.25)) * face.ay +
+                     (air.z - face.vz * Real(0.25)) * face.az);
+        most[c] = flow > most[c] ? flow : most[c];
+      }
+    }
+  }
+  return Real(0.5) * *std::max_element(most, most + kBlock);
+}
+
+/// Row `r` of the nodes [begin, begin + count): tangents from the neighbours `left`, `right` columns and
+/// `up`, `down` rows away.
+template <class Real>
+[[gnu::always_inline]] inline void normals_block(const Components<const Real>& p, std::size_t first,
+                                                 int count, std::size_t left, std::size_t right,
+                                                 std::size_t up, std::size_t down, const Air<Real>& direction,
+                                                 const Real* __restrict weight,
+                                                 const Components<Real>& force) {
+  const Real smallest = std::numeric_limits<Real>::min();
+  Real* __restrict fx = force.x + first;
+  Real* __restrict fy = force.y + first;
+  Real* __restrict fz = force.z + first;
+  for (int c = 0; c < count; ++c) {
+    const std::size_t i = first + static_cast<std::size_t>(c);
+    const Real ux = p.x[i + right] - p.x[i - left], uy = p.y[i + right] - p.y[i - left],
+               uz = p.z[i + right] - p.z[i - left];
+    const Real wx = p.x[i - up] - p.x[i + down], wy = p.y[i - up] - p.y[i + down],
+               wz = p.z[i - up] - p.z[i + down];
+    const Real nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
+    const Real squared = nx * nx + ny * ny + nz * nz;
+    const Real downwind = nx * direction.x + ny * direction.y + nz * direction.z;
+    const Real signed_weight = downwind < Real(0) ? -weight[i] : weight[i];
+    const Real scale = signed_weight / std::sqrt(squared > smallest ? squared : smallest);
+    fx[c] += scale * nx;
+    fy[c] += scale * ny;
+    fz[c] += scale * nz;
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_normals(const Grid& grid, const Components<const Real>& p,
+                                               const Air<Real>& direction, const Real* weight,
+                                               const Components<Real>& force) {
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (int r = 0; r < grid.rows; ++r) {
+    const std::size_t up = r > 0 ? stride : 0;
+    const std::size_t down = r + 1 < grid.rows ? stride : 0;
+    normals_block(p, grid.index(r, 0), 1, 0, 1, up, down, direction, weight, force);
+    normals_block(p, grid.index(r, 1), grid.cols - 2, 1, 1, up, down, direction, weight, force);
+    normals_block(p, grid.index(r, grid.cols - 1), 1, 1, 0, up, down, direction, weight, force);
+  }
+}
+
+}  // namespace
+
+WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const float> position,
+                                        Components<const float> velocity, const Air<float>& air, float factor,
+                                        Components<float> force) {
+  add_pressure(grid, position, velocity, air, factor, force);
+}
+WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const double> position,
+                                        Components<const double> velocity, const Air<double>& air,
+                                        double factor, Components<double> force) {
+  add_pressure(grid, position, velocity, air, factor, force);
+}
+
+WEFT_MULTIVERSION float max_air_flow(const Grid& grid, Components<const float> position,
+                                     Components<const float> velocity, const Air<float>& air) {
+  return max_flow(grid, position, velocity, air);
+}
+WEFT_MULTIVERSION double max_air_flow(const Grid& grid, Components<const double> position,
+                                      Components<const double> velocity, const Air<double>& air) {
+  return max_flow(grid, position, velocity, air);
+}
+
+WEFT_MULTIVERSION void add_along_normals(const Grid& grid, Components<const float> position,
+                                         const Air<float>& direction, const float* weight,
+                                         Components<float> force) {
+  add_normals(grid, position, direction, weight, force);
+}
+WEFT_MULTIVERSION void add_along_normals(const Grid& grid, Components<const double> position,
+                                         const Air<double>& direction, const double* weight,
+                                         Components<double> force) {
+  add_normals(grid, position, direction, weight, force);
+}
+
+}  // namespace weft::kernels

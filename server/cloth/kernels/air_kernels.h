@@ -1,0 +1,33 @@
+#pragma once
+#include "cloth/kernels/components.h"
+
+namespace weft::kernels {
+
+/// Air moving with one velocity everywhere.
+template <class Real>
+struct Air {
+  Real x, y, z;  ///< m/s
+};
+
+/// Flat-plate pressure on every face (cell), a quarter of it on each corner: F = factor |w.A| (w.A) A / |A|^2
+/// with A the face's area vector, half the cross product of its diagonals, and w the air's velocity relative
+/// to the mean of the corners'. factor = 1/2 rho C.
+void add_air_pressure(const Grid& grid, Components<const float> position, Components<const float> velocity,
+                      const Air<float>& air, float factor, Components<float> force);
+void add_air_pressure(const Grid& grid, Components<const double> position, Components<const double> velocity,
+                      const Air<double>& air, double factor, Components<double> force);
+
+/// Largest |w.A| of any face, m3/s.
+float max_air_flow(const Grid& grid, Components<const float> position, Components<const float> velocity,
+                   const Air<float>& air);
+double max_air_flow(const Grid& grid, Components<const double> position, Components<const double> velocity,
+                    const Air<double>& air);
+
+/// force += weight * N, N the unit normal of the surface at the node (from its four neighbours, fewer on the
+/// border), turned towards `direction`; nothing where the neighbours span no surface.
+void add_along_normals(const Grid& grid, Components<const float> position, const Air<float>& direction,
+                       const float* weight, Components<float> force);
+void add_along_normals(const Grid& grid, Components<const double> position, const Air<double>& direction,
+                       const double* weight, Components<double> force);
+
+}  // namespace weft::kernels

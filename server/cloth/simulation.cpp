@@ -1,0 +1,100 @@
+#include "cloth/simulation.h"
+
+#include <chrono>
+
+#include "cloth/diagnostics.h"
+
+namespace weft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+template <class Real>
+std::vector<Cloth<Real>> make_cloths(const SimulationDescription& description) {
+  std::vector<Cloth<Real>> cloths;
+  cloths.reserve(description.cloths.size());
+  for (const ClothDescription& cloth : description.cloths) {
+    // Each cloth draws from its own sequence: adding one leaves the others as they are.
+    cloths.emplace_back(cloth, description.effects, description.integrator, description.seed + cloths.size());
+  }
+  return cloths;
+}
+
+}  // namespace
+
+template <class Real>
+Simulation<Real>::Simulation(SimulationDescription description) : description_(std::move(description)) {
+  reset();
+}
+
+template <class Real>
+void Simulation<Real>::reset() {
+  gravity_ = total_gravity(description_.effects);
+  wind_ = description_.wind;
+  colliders_ = Colliders(description_.balls);
+  cloths_ = make_cloths<Real>(description_);
+  last_advance_.assign(cloths_.size(), AdvanceReport{});
+  steps_ = 0;
+  healthy_ = true;
+  profile_ = StepProfile{};
+}
+
+template <class Real>
+void Simulation<Real>::step() {
+  const double dt = description_.time_step;
+  const auto begin = Clock::now();
+  profile_ = StepProfile{};
+
+  for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
+  profile_.levels = seconds_since(begin);
+
+  colliders_.begin_step(time(), dt, gravity_);
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    last_advance_[i] = cloths_[i].advance(colliders_.balls(), wind_, time(), dt);
+    profile_.forces += last_advance_[i].forces_seconds;
+    profile_.contact += last_advance_[i].contact_seconds;
+  }
+  colliders_.end_step();
+  ++steps_;
+
+  const auto check = Clock::now();
+  check_finite();
+  profile_.check = seconds_since(check);
+  profile_.total = seconds_since(begin);
+}
+
+template <class Real>
+void Simulation<Real>::check_finite() {
+  for (const Cloth<Real>& cloth : cloths_) healthy_ = healthy_ && is_finite(cloth.particles());
+  for (const Ball& ball : colliders_.balls()) {
+    healthy_ = healthy_ && ball.position.allFinite() && ball.velocity.allFinite();
+  }
+}
+
+template <class Real>
+ClothReport Simulation<Real>::report(std::size_t cloth) const {
+  const Particles<Real>& particles = cloths_[cloth].particles();
+  const Springs<Real>& springs = cloths_[cloth].springs();
+  ClothReport report;
+  report.level = cloths_[cloth].level();
+  report.substeps = last_advance_[cloth].substeps;
+  report.nodes_in_contact = last_advance_[cloth].nodes_in_contact;
+  report.kinetic_energy = kinetic_energy(particles);
+  report.potential_energy = springs.energy(particles.position) + gravitational_energy(particles, gravity_);
+  report.strain = springs.structural_strain(particles.position);
+  return report;
+}
+
+template <class Real>
+Vec3 Simulation<Real>::centre(std::size_t cloth) const {
+  return weft::centre(cloths_[cloth].particles());
+}
+
+template class Simulation<float>;
+template class Simulation<double>;
+
+}  // namespace weft

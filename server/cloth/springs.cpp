@@ -1,0 +1,172 @@
+#include "cloth/springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "cloth/kernels/spring_kernels.h"
+
+namespace weft {
+namespace {
+
+bool is_structural(const SpringFamily& family) { return family.rows + std::abs(family.cols) == 1; }
+
+/// Calls visit(d, stiffness) for every spring of the family, d from end j to end i.
+template <class Real, class Visit>
+void for_each_spring(const SpringFamily& family, const VectorField<Real>& position, Visit visit) {
+  const Grid& grid = position.grid();
+  for (int r = 0; r + family.rows < grid.rows; ++r) {
+    for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid.cols; ++c) {
+      const int r2 = r + family.rows, c2 = c + family.cols;
+      const Vec3 d(double(position.x.at(r, c)) - double(position.x.at(r2, c2)),
+                   double(position.y.at(r, c)) - double(position.y.at(r2, c2)),
+                   double(position.z.at(r, c)) - double(position.z.at(r2, c2)));
+      visit(d, family.stiffness_at(r, c, grid.rows, grid.cols));
+    }
+  }
+}
+
+/// Stiffness of each kind; a family that is absent has 0.
+struct LatticeStiffness {
+  double along_u = 0, along_v = 0, shear = 0, bending_u = 0, bending_v = 0;
+
+  explicit LatticeStiffness(const std::vector<SpringFamily>& families) {
+    for (const SpringFamily& f : families) {
+      if (f.rows == 0 && f.cols == 1) along_u = f.stiffness;
+      if (f.rows == 1 && f.cols == 0) along_v = f.stiffness;
+      if (f.rows == 1 && std::abs(f.cols) == 1) shear = std::max(shear, f.stiffness);
+      if (f.rows == 0 && f.cols == 2) bending_u = f.stiffness;
+      if (f.rows == 2 && f.cols == 0) bending_v = f.stiffness;
+    }
+  }
+
+  /// Sum of 2 k (1 - cos(theta . offset)) over the springs of an infinite lattice, a and b being the cosines
+  /// of theta's two components: what a plane wave feels when every spring resists it with its full stiffness.
+  double of_wave(double a, double b) const {
+    return 2 * along_u * (1 - a) + 2 * along_v * (1 - b) + 4 * shear * (1 - a * b) +
+           4 * bending_u * (1 - a * a) + 4 * bending_v * (1 - b * b);
+  }
+
+  /// Largest of_wave for a, b in [-1, 1]: on the square's corners, or where it is stationary on a side or
+  /// inside.
+  double of_stiffest_wave() const {
+    const auto clamped = [](double numerator, double denominator) {
+      return denominator > 0 ? std::clamp(numerator / denominator, -1.0, 1.0) : -1.0;
+    };
+    double most = 0;
+    for (const double side : {-1.0, 1.0}) {
+      most = std::max({most, of_wave(side, -1), of_wave(side, 1)});
+      most = std::max(most, of_wave(side, clamped(-2 * along_v - 4 * shear * side, 8 * bending_v)));
+      most = std::max(most, of_wave(clamped(-2 * along_u - 4 * shear * side, 8 * bending_u), side));
+    }
+    const double determinant = 64 * bending_u * bending_v - 16 * shear * shear;
+    if (determinant > 0) {
+      const double a = clamped(-16 * bending_v * along_u + 8 * shear * along_v, determinant);
+      const double b = clamped(-16 * bending_u * along_v + 8 * shear * along_u, determinant);
+      most = std::max(most, of_wave(a, b));
+    }
+    return most;
+  }
+};
+
+}  // namespace
+
+double spring_energy(const Vec3& d, double rest_length, double stiffness) {
+  const double stretch = d.norm() - rest_length;
+  return 0.5 * stiffness * stretch * stretch;
+}
+
+Vec3 spring_force(const Vec3& d, double rest_length, double stiffness) {
+  const double length = d.norm();
+  if (length == 0) return Vec3::Zero();
+  return -stiffness * (length - rest_length) / length * d;
+}
+
+Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness) {
+  const double length = d.norm();
+  if (length == 0) return Eigen::Matrix3d::Zero();
+  const Vec3 n = d / length;
+  const Eigen::Matrix3d along = n * n.transpose();
+  return stiffness * along + stiffness * (1 - rest_length / length) * (Eigen::Matrix3d::Identity() - along);
+}
+
+template <class Real>
+Springs<Real>::Springs(const Material& material, Discretization discretization, const Vec2& size,
+                       const Grid& grid) {
+  const double hx = size.x() / (grid.cols - 1);
+  const double hy = size.y() / (grid.rows - 1);
+  const double diagonal = std::hypot(hx, hy);
+  const bool continuum = discretization == Discretization::continuum;
+  const double border_share = continuum ? 0.5 : 1.0;
+  const auto add = [&](int rows, int cols, double rest_length, double constant, double shape) {
+    const double stiffness = continuum ? constant * shape : constant;
+    if (stiffness > 0) families_.push_back({rows, cols, rest_length, stiffness, border_share});
+  };
+  add(0, 1, hx, material.structural, hy / hx);
+  add(1, 0, hy, material.structural, hx / hy);
+  add(1, 1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy));
+  add(1, -1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy));
+  add(0, 2, 2 * hx, material.bending, hy / (2 * hx));
+  add(2, 0, 2 * hy, material.bending, hx / (2 * hy));
+}
+
+template <class Real>
+void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
+  kernels::add_spring_forces(families_, position.grid(), kernels::components(position),
+                             kernels::components(force));
+}
+
+template <class Real>
+double Springs<Real>::energy(const VectorField<Real>& position) const {
+  double sum = 0;
+  for (const SpringFamily& family : families_) {
+    for_each_spring(family, position, [&](const Vec3& d, double stiffness) {
+      sum += spring_energy(d, family.rest_length, stiffness);
+    });
+  }
+  return sum;
+}
+
+template <class Real>
+StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& position) const {
+  StructuralStrain strain;
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const SpringFamily& family : families_) {
+    if (!is_structural(family)) continue;
+    for_each_spring(family, position, [&](const Vec3& d, double) {
+      const double one = std::abs(d.norm() - family.rest_length) / family.rest_length;
+      strain.max = std::max(strain.max, one);
+      sum += one;
+      ++count;
+    });
+  }
+  if (count > 0) strain.mean = sum / static_cast<double>(count);
+  return strain;
+}
+
+template <class Real>
+double Springs<Real>::max_squared_frequency(const Field<Real>& mass) const {
+  if (families_.empty()) return 0;
+  // A spring's stiffness matrix is at most k I, so K is at most the lattice's weighted Laplacian, for any
+  // shape. With border springs at full stiffness the sheet is part of an infinite lattice: K <= S I, S that
+  // of the stiffest wave. At half stiffness the sheet mirrored at its borders is a periodic lattice in which
+  // a border node counts half, a corner a quarter: K <= S diag(share). Hence M^-1 K <= S max(share / m).
+  const double border_share = families_.front().border_share;
+  const Grid& grid = mass.grid();
+  double most = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    const double row_share = r == 0 || r == grid.rows - 1 ? border_share : 1.0;
+    for (int c = 0; c < grid.cols; ++c) {
+      const double col_share = c == 0 || c == grid.cols - 1 ? border_share : 1.0;
+      most = std::max(most, row_share * col_share / double(mass.at(r, c)));
+    }
+  }
+  // Room for the rounding of the masses and of whoever computes the eigenvalue.
+  return LatticeStiffness(families_).of_stiffest_wave() * most * (1 + 1e-6);
+}
+
+template class Springs<float>;
+template class Springs<double>;
+
+}  // namespace weft
