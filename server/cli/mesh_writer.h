@@ -1,5 +1,6 @@
 #pragma once
 /// Mesh sequences to files, by extension: .obj (numbered), .pc2, .csv, .glb.
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,19 +16,27 @@ struct MeshFrame {
   std::vector<float> velocities;  ///< the same, m/s; empty where unknown
 };
 
-/// Writes the frames of one cloth to one file (or numbered sequence). A frame of another size than the first is brought to
-/// the first one's grid: fewer nodes by Eq. 8's averages, more by taking the shared nodes (levels are nested).
+/// Writes the frames of one cloth to one file (or numbered sequence). The level may change between frames:
+/// .obj and .csv keep each frame's own grid; .pc2 and .glb have one topology, so there every frame is brought
+/// to the first one's grid (on_grid).
 class MeshWriter {
  public:
   virtual ~MeshWriter() = default;
   virtual void write(const MeshFrame& frame) = 0;
   /// Completes the file. Throws std::runtime_error naming the file on a write error.
   virtual void finish() = 0;
+  /// Frames the format can hold; write throws std::runtime_error beyond it.
+  virtual int max_frames() const { return std::numeric_limits<int>::max(); }
 
-  /// Throws std::runtime_error for an unknown extension (names the known ones) or a path that cannot be written.
+  /// Throws std::runtime_error for an unknown extension (names the known ones) or a path that cannot be
+  /// written.
   static std::unique_ptr<MeshWriter> open(const std::string& path);
   /// `path` for cloth `name` of several: "out.csv" -> "out-NAME.csv".
   static std::string path_for_cloth(const std::string& path, const std::string& name);
 };
+
+/// `frame` with rows x cols nodes: more by Eq. 8's averages, fewer by taking the shared nodes (levels are
+/// nested). Throws std::invalid_argument if the two are not levels of one cloth.
+MeshFrame on_grid(const MeshFrame& frame, int rows, int cols);
 
 }  // namespace weft::cli

@@ -1,0 +1,36 @@
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace weft::cli {
+namespace {
+
+constexpr const char* kClearLine = "\r\x1b[K";
+
+}  // namespace
+
+Progress::Progress(std::string label, int total)
+    : label_(std::move(label)), total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (terminal_) std::fputs(kClearLine, stderr);
+}
+
+void Progress::show(int done) {
+  const auto now = Clock::now();
+  if (!terminal_ || total_ <= 0 || done <= 0 || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  constexpr int kWidth = 30;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const int filled = static_cast<int>(static_cast<long long>(kWidth) * done / total_);
+  std::string bar(static_cast<std::size_t>(filled), '#');
+  bar.resize(kWidth, '.');
+  std::fprintf(stderr, "%s%s [%s] %d/%d frames, %.0f s left", kClearLine, label_.c_str(), bar.c_str(), done,
+               total_, elapsed * (total_ - done) / done);
+  std::fflush(stderr);
+}
+
+}  // namespace weft::cli
