@@ -1,5 +1,6 @@
 #include "protocol/frame.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -70,18 +71,16 @@ void put_payload_length(std::vector<std::uint8_t>& record) {
   put(record.data(), kPayloadLengthAt, static_cast<std::uint32_t>(record.size() - kHeaderBytes));
 }
 
-/// A lattice all of whose positions are finite floats.
+/// A lattice all of whose positions are finite floats, with a normal power of two as quantum.
 bool usable(const Quantisation& lattice) {
-  int exponent = 0;
-  if (!(lattice.quantum > 0) || !std::isfinite(lattice.quantum) ||
-      std::frexp(lattice.quantum, &exponent) != 0.5F)
-    return false;
+  // Neither sign nor fraction bits; an exponent of neither zeros (subnormal) nor ones (infinite).
+  const auto bits = std::bit_cast<std::uint32_t>(lattice.quantum);
+  const std::uint32_t exponent = bits >> 23;
+  if ((bits & 0x807fffffU) != 0 || exponent == 0 || exponent == 255) return false;
   const double reach = double(lattice.quantum) * double((1 << lattice.bits) - 1);
-  for (const float origin : lattice.origin) {
-    // Written so that a NaN fails too.
-    if (!(std::abs(double(origin)) + reach <= double(std::numeric_limits<float>::max()))) return false;
-  }
-  return true;
+  return std::all_of(lattice.origin.begin(), lattice.origin.end(), [&](float origin) {
+    return std::abs(double(origin)) + reach <= double(std::numeric_limits<float>::max());  // false for a NaN
+  });
 }
 
 /// The records of one message, one after the other; the first fault ends it.

@@ -1,0 +1,559 @@
+/**
+ * Weft client: the protocol of PROTOCOL.md (weft.v1) for pages, workers and Node.
+ *
+ *   import { connect } from './weft.js';
+ *   const weft = await connect('ws://127.0.0.1:8080/v1/scenes/flag', { onframe: (frame) => draw(frame) });
+ *   await weft.camera({ distance: 5 });
+ *   const ball = await weft.addBall({ position: [0, 1, 2], radius: 0.2 });
+ *   await weft.throwBall(ball, [0, 0, -6]);
+ *   weft.close();
+ */
+
+export const SUBPROTOCOL = 'weft.v1';
+
+/**
+ * @typedef {[number, number, number]} Vector
+ * @typedef {object} Stamp
+ * @property {number} f steps since the epoch began
+ * @property {number} epoch +1 at each reset: never interpolate between epochs
+ * @property {number} time simulated, s
+ * @property {number} serverMs the server's monotonic clock, ms, modulo 2^32
+ * @property {boolean} paused
+ * @property {boolean} slow the scene's clock runs behind real time
+ * @typedef {object} Cloth
+ * @property {number} cloth index in the scene
+ * @property {number} level of this mesh
+ * @property {number} simulatedLevel level at which the cloth is simulated
+ * @property {number} rows nodes along v
+ * @property {number} cols nodes along u
+ * @property {number} quantum m: positions are exact to half of it
+ * @property {Float32Array} positions x, y, z interleaved, row by row, m
+ * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic'}} Ball
+ * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[]}} Frame
+ */
+
+/** A request refused by the server, or a connection that failed: `code` is one of PROTOCOL.md's, or `closed`, `timeout`, `connect`. */
+export class WeftError extends Error {
+  /** @param {string} code @param {string} message @param {string} [path] JSON pointer into the request */
+  constructor(code, message, path = '') {
+    super(message);
+    this.name = 'WeftError';
+    this.code = code;
+    this.path = path;
+  }
+}
+
+// --- Frames (PROTOCOL.md section 4) ---
+
+const HEADER_BYTES = 64;
+const FLAG_LAST = 1, FLAG_PAUSED = 2, FLAG_SLOW = 4;
+const GROUP = 16;       // values that share a width
+const MAX_WIDTH = 18;   // residuals of 16-bit values, zig-zagged, lie below 2^18
+const MIN_SIDE = 2, MAX_SIDE = 1025;
+const BALL_BYTES = 24;
+const MAX_FLOAT = 3.4028234663852886e38;
+
+/** @returns {never} */
+function malformed(reason) {
+  throw new WeftError('bad_frame', reason);
+}
+
+/**
+ * Decodes one binary message. Throws a WeftError `bad_frame` on anything malformed.
+ * @param {ArrayBuffer|ArrayBufferView} message
+ * @returns {Frame}
+ */
+export function decodeFrame(message) {
+  const view = ArrayBuffer.isView(message)
+    ? new DataView(message.buffer, message.byteOffset, message.byteLength)
+    : new DataView(message);
+  if (view.byteLength === 0) malformed('empty message');
+  /** @type {Frame} */
+  const frame = { stamp: /** @type {any} */ (null), cloths: [], balls: [] };
+  let last = false;
+  for (let at = 0; at < view.byteLength;) {
+    if (last) malformed('bytes after the last record');
+    if (view.byteLength - at < HEADER_BYTES) malformed('header cut short');
+    if (view.getUint32(at) !== 0x57454654) malformed('wrong magic');
+    if (view.getUint8(at + 4) !== 1) malformed(`version ${view.getUint8(at + 4)}`);
+    const headerBytes = view.getUint16(at + 8, true);
+    if (headerBytes < HEADER_BYTES || headerBytes > 256 || headerBytes % 8) malformed(`header_length ${headerBytes}`);
+    if (view.byteLength - at < headerBytes) malformed('header cut short');
+    const payloadBytes = view.getUint32(at + 60, true);
+    if (view.byteLength - at - headerBytes < payloadBytes) malformed('payload cut short');
+
+    last = (view.getUint16(at + 6, true) & FLAG_LAST) !== 0;
+    const stamp = readStamp(view, at);
+    if (frame.stamp && (frame.stamp.f !== stamp.f || frame.stamp.epoch !== stamp.epoch)) malformed('records of different steps');
+    frame.stamp ??= stamp;
+    const payload = new Uint8Array(view.buffer, view.byteOffset + at + headerBytes, payloadBytes);
+    const type = view.getUint8(at + 5);
+    if (type === 1) frame.cloths.push(readCloth(view, at, payload));
+    if (type === 2) frame.balls.push(...readBalls(view, at, payload));  // other types: of a later minor version
+    at += headerBytes + payloadBytes;
+  }
+  if (!last) malformed('last record is missing');
+  return frame;
+}
+
+/** @returns {Stamp} */
+function readStamp(view, at) {
+  const flags = view.getUint16(at + 6, true);
+  const time = view.getFloat64(at + 24, true);
+  if (!Number.isFinite(time)) malformed('time is not finite');
+  return {
+    f: view.getUint32(at + 16, true),
+    epoch: view.getUint32(at + 20, true),
+    time,
+    serverMs: view.getUint32(at + 32, true),
+    paused: (flags & FLAG_PAUSED) !== 0,
+    slow: (flags & FLAG_SLOW) !== 0,
+  };
+}
+
+/** @returns {Cloth} */
+function readCloth(view, at, payload) {
+  if (view.getUint8(at + 10) !== 1) malformed(`codec ${view.getUint8(at + 10)}`);
+  const bits = view.getUint8(at + 11);
+  if (bits < 8 || bits > 16) malformed(`${bits} bits`);
+  const cols = view.getUint16(at + 40, true), rows = view.getUint16(at + 42, true);
+  const origin = [0, 1, 2].map((axis) => view.getFloat32(at + 44 + 4 * axis, true));
+  const quantum = view.getFloat32(at + 56, true);
+  // A positive, normal power of two has neither sign nor fraction bits, and an exponent of neither zeros nor ones.
+  const quantumBits = view.getUint32(at + 56, true), exponent = quantumBits >>> 23;
+  const reach = quantum * (2 ** bits - 1);
+  if ((quantumBits & 0x807fffff) !== 0 || exponent === 0 || exponent === 255 ||
+      !origin.every((value) => Math.abs(value) + reach <= MAX_FLOAT)) malformed('unusable origin or quantum');
+  return {
+    cloth: view.getUint32(at + 12, true),
+    level: view.getUint8(at + 36),
+    simulatedLevel: view.getUint8(at + 37),
+    rows,
+    cols,
+    quantum,
+    positions: decodeGrid(payload, rows, cols, bits, origin, quantum),
+  };
+}
+
+/** Codec 1: three axes of zig-zagged residuals in groups of 16. */
+function decodeGrid(payload, rows, cols, bits, origin, quantum) {
+  if (rows < MIN_SIDE || rows > MAX_SIDE || cols < MIN_SIDE || cols > MAX_SIDE) malformed(`grid of ${rows} rows and ${cols} columns`);
+  const nodes = rows * cols;
+  // A group is at least its width byte: no payload buys more memory than it is long.
+  if (payload.length < 3 * Math.ceil(nodes / GROUP)) malformed('grid payload too short');
+  const bytes = new Uint8Array(payload.length + 4);  // room to read whole words at the end
+  bytes.set(payload);
+  const positions = new Float32Array(3 * nodes);
+  const residuals = new Int32Array(nodes);
+  const above = new Int32Array(cols);
+  const top = 2 ** bits - 1;
+  let at = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    for (let first = 0; first < nodes; first += GROUP) {
+      if (at === payload.length) malformed('grid payload too short');
+      const width = bytes[at++];
+      if (width > MAX_WIDTH) malformed(`group width ${width}`);
+      const end = Math.min(first + GROUP, nodes);
+      const groupBytes = ((end - first) * width + 7) >> 3;
+      if (payload.length - at < groupBytes) malformed('grid payload too short');
+      const mask = (1 << width) - 1;
+      for (let i = first, bit = 8 * at; i < end; ++i, bit += width) {
+        const byte = bit >> 3;
+        const word = bytes[byte] | bytes[byte + 1] << 8 | bytes[byte + 2] << 16 | bytes[byte + 3] << 24;
+        const z = (word >>> (bit & 7)) & mask;
+        residuals[i] = (z >> 1) ^ -(z & 1);
+      }
+      at += groupBytes;
+    }
+    above.fill(0);
+    const start = origin[axis];
+    for (let r = 0, i = 0; r < rows; ++r) {
+      // q - P is d - (d to the left), with d = q - (q above).
+      let difference = 0, outside = false;
+      for (let c = 0; c < cols; ++c, ++i) {
+        difference += residuals[i];
+        const q = above[c] + difference;
+        above[c] = q;
+        outside ||= q < 0 || q > top;
+        positions[3 * i + axis] = start + q * quantum;
+      }
+      if (outside) malformed(`value outside ${bits} bits`);
+    }
+  }
+  if (at !== payload.length) malformed(`${payload.length - at} bytes after the grid payload`);
+  return positions;
+}
+
+/** @returns {Ball[]} */
+function readBalls(view, at, payload) {
+  if (view.getUint8(at + 10) !== 2) malformed(`codec ${view.getUint8(at + 10)}`);
+  const count = view.getUint16(at + 40, true);
+  if (view.getUint16(at + 42, true) !== 1) malformed('balls in more than one row');
+  if (payload.length !== count * BALL_BYTES) malformed('balls of another length than their number');
+  const data = new DataView(payload.buffer, payload.byteOffset, payload.length);
+  const balls = [];
+  for (let from = 0; from < payload.length; from += BALL_BYTES) {
+    const [x, y, z, radius] = [4, 8, 12, 16].map((offset) => data.getFloat32(from + offset, true));
+    const motion = data.getUint32(from + 20, true);
+    if (![x, y, z, radius].every(Number.isFinite)) malformed('ball is not finite');
+    if (motion > 1) malformed(`ball with motion ${motion}`);
+    balls.push({ ball: data.getUint32(from, true), position: /** @type {Vector} */ ([x, y, z]), radius,
+      motion: /** @type {Ball['motion']} */ (motion ? 'dynamic' : 'kinematic') });
+  }
+  return balls;
+}
+
+// --- Control messages (PROTOCOL.md sections 2 and 3) ---
+
+/**
+ * A client message as JSON text: op, id, then the members that are not undefined.
+ * @param {string} op @param {object} [members] @param {number} [id]
+ */
+export function messageText(op, members = {}, id = undefined) {
+  return JSON.stringify({ op, id, ...members }, (name, value) => {
+    // JSON would turn these into null, and the server's answer would puzzle.
+    if (typeof value === 'number' && !Number.isFinite(value)) throw new WeftError('range', `${name} is ${value}; allowed: finite numbers`);
+    return value;
+  });
+}
+
+// --- The client ---
+
+/**
+ * @typedef {object} Options
+ * @property {typeof WebSocket} [WebSocket] the class to connect with; default: the platform's, else package `ws`
+ * @property {(frame: Frame) => void | Promise<void>} [onframe] the newest frame; acknowledged when this has returned (or its
+ *   promise is settled), frames that arrive meanwhile replace each other
+ * @property {(message: any) => void} [onmessage] every message that answers no request: `welcome`, `scene`, `event`,
+ *   `stats`, `notice`, and `error` without `re`
+ * @property {(state: 'open'|'waiting'|'closed', why: {code?: number, reason?: string, error?: Error, delay?: number}) => void} [onstate]
+ *   `open` after each (re)connection, `waiting` before each attempt to reconnect (after `delay` ms), `closed` at the end
+ * @property {(error: Error) => void} [onerror] malformed frames, and what onframe throws; default: console.error
+ * @property {string} [client] name told to the server
+ * @property {number} [window] unacknowledged frames, 1..8 (default 2); 0: no flow control, the server sends as fast as it can
+ * @property {number} [timeout] ms to wait for a connection or a reply (default 5000)
+ * @property {boolean} [reconnect] come back after a lost connection, and keep trying at first: 0.25 s, doubled up to 10 s,
+ *   jittered (default false)
+ */
+
+const BACKOFF_FIRST_MS = 250, BACKOFF_MOST_MS = 10000;
+
+/** Milliseconds to wait before attempt 0, 1, ...: doubled up to 10 s, and jittered down to half, so that viewers do not return in step. */
+export function backoff(attempt, random = Math.random) {
+  return Math.min(BACKOFF_MOST_MS, BACKOFF_FIRST_MS * 2 ** Math.min(attempt, 20)) * (0.5 + 0.5 * random());
+}
+
+/** One connection to one scene. Use `connect`, or construct and `open()` to have the object before the connection. */
+export class WeftClient {
+  /** The server's `welcome`. @type {any} */
+  welcome = null;
+  /** The scene's newest `scene` message. @type {any} */
+  scene = null;
+  /** The newest frame. @type {Frame|null} */
+  frame = null;
+
+  #url;
+  #options;
+  /** @type {any} */
+  #socket = null;
+  #open = false;    // greeted, and not lost since
+  #closed = false;  // for good
+  #acks = false;
+  #nextId = 1;
+  /** @type {Map<number, {resolve: Function, reject: Function, timer: any}>} */
+  #requests = new Map();
+  #waiters = new Set();
+  #newest = null;
+  #delivering = false;
+  #camera = null;
+  /** Ends a wait between attempts early. @type {(() => void)|null} */
+  #wake = null;
+
+  /** @param {string|URL} url ws://HOST:PORT/v1/scenes/NAME @param {Options} [options] */
+  constructor(url, options = {}) {
+    this.#url = String(url);
+    this.#options = { window: 2, timeout: 5000, onerror: (error) => console.error(error), ...options };
+  }
+
+  /** Connects; with `reconnect`, tries until it succeeds or `close()` is called. @returns {Promise<this>} */
+  async open() {
+    for (let attempt = 0; ; ++attempt) {
+      try {
+        await this.#attempt();
+        return this;
+      } catch (error) {
+        if (this.#closed || !this.#options.reconnect) throw error;
+        await this.#wait(backoff(attempt), { error });
+      }
+    }
+  }
+
+  /** Ends the connection for good; open requests are rejected with code `closed`. */
+  close() {
+    if (this.#closed) return;
+    this.#end(new WeftError('closed', 'closed by this client'), { code: 1000 });
+    this.#wake?.();
+    this.#socket?.close(1000);
+  }
+
+  /** True while connected and greeted. */
+  get connected() {
+    return this.#open;
+  }
+
+  /**
+   * Sends a request and gives its `ok` or `pong`; rejects with the server's `error` as a WeftError.
+   * @param {string} op @param {object} [members] @returns {Promise<any>}
+   */
+  send(op, members = {}) {
+    const id = this.#nextId;
+    this.#nextId = id === 2147483647 ? 1 : id + 1;
+    return new Promise((resolve, reject) => {
+      const text = messageText(op, members, id);
+      if (this.#socket?.readyState !== 1) throw new WeftError('closed', 'not connected');
+      const timer = setTimeout(() => {
+        this.#requests.delete(id);
+        reject(new WeftError('timeout', `no answer to ${op} within ${this.#options.timeout} ms`));
+      }, this.#options.timeout);
+      this.#requests.set(id, { resolve, reject, timer });
+      this.#socket.send(text);
+    });
+  }
+
+  /** Sends a message that only an error would answer (to `onmessage`): for streams such as a dragged ball. Dropped while not connected. */
+  post(op, members = {}) {
+    const text = messageText(op, members);
+    if (this.#socket?.readyState === 1) this.#socket.send(text);
+  }
+
+  /** Tells where this viewer's camera is; remembered, and told again after a reconnection. @param {{distance: number}|{eye: Vector}} where */
+  camera(where) {
+    this.#camera = where;
+    return this.send('camera', where);
+  }
+
+  /** @returns {Promise<{name: string, title: string, viewers: number, cloths: number}[]>} */
+  async listScenes() {
+    return (await this.send('scene.list')).scenes;
+  }
+
+  /** Leaves the scene and joins another, also for reconnections. Its `scene` message and frames follow. @param {string} scene */
+  async joinScene(scene) {
+    const ok = await this.send('scene.join', { scene });
+    this.#url = new URL(encodeURIComponent(scene), this.#url).href;
+    return ok;
+  }
+
+  /** @param {{position: Vector, radius: number, velocity?: Vector, motion?: 'kinematic'|'dynamic', mass?: number}} ball @returns {Promise<number>} its id */
+  async addBall(ball) {
+    return (await this.send('ball.add', ball)).ball;
+  }
+
+  /** @param {number} ball @param {Vector} position */
+  moveBall(ball, position) {
+    return this.send('ball.move', { ball, position });
+  }
+
+  /** @param {number} ball @param {Vector} velocity m/s */
+  throwBall(ball, velocity) {
+    return this.send('ball.throw', { ball, velocity });
+  }
+
+  /** @param {number} ball */
+  removeBall(ball) {
+    return this.send('ball.remove', { ball });
+  }
+
+  /** @param {Vector} direction any length but zero @param {number} speed m/s */
+  setWind(direction, speed) {
+    return this.send('wind.set', { direction, speed });
+  }
+
+  pause() {
+    return this.send('pause');
+  }
+
+  resume() {
+    return this.send('resume');
+  }
+
+  reset() {
+    return this.send('reset');
+  }
+
+  /** While paused. @param {number} [count] */
+  step(count = 1) {
+    return this.send('step', { count });
+  }
+
+  /** Round-trip time, ms. */
+  async ping() {
+    const t = performance.now();
+    await this.send('ping', { t });
+    return performance.now() - t;
+  }
+
+  /**
+   * The next frame for which `accept` is true.
+   * @param {(frame: Frame) => boolean} [accept] @param {number} [timeout] ms @returns {Promise<Frame>}
+   */
+  nextFrame(accept = () => true, timeout = this.#options.timeout) {
+    return new Promise((resolve, reject) => {
+      const waiter = { accept, resolve, reject, timer: setTimeout(() => {
+        this.#waiters.delete(waiter);
+        reject(new WeftError('timeout', `no such frame within ${timeout} ms`));
+      }, timeout) };
+      this.#waiters.add(waiter);
+    });
+  }
+
+  /** One attempt to connect: done when the server has greeted, sent the scene, and answered `hello`. */
+  async #attempt() {
+    if (this.#closed) throw new WeftError('closed', 'closed by this client');
+    const { timeout, window: frames, client } = this.#options;
+    const Socket = this.#options.WebSocket ?? globalThis.WebSocket ?? (await import('ws')).default;
+    const socket = new Socket(this.#url, SUBPROTOCOL);
+    socket.binaryType = 'arraybuffer';
+    this.#socket = socket;
+    this.welcome = this.scene = this.#newest = null;
+    this.#acks = false;
+    try {
+      await new Promise((resolve, reject) => {
+        const timer = setTimeout(() => reject(new WeftError('timeout', `no connection to ${this.#url} within ${timeout} ms`)), timeout);
+        const fail = (why) => {
+          clearTimeout(timer);
+          reject(new WeftError('connect', `no connection to ${this.#url}: ${why}`));
+        };
+        socket.addEventListener('error', (event) => fail(event.message || 'refused'));
+        socket.addEventListener('close', (event) => {
+          fail(event.reason || `closed with ${event.code}`);
+          if (this.#socket === socket) this.#lost(event);
+        });
+        socket.addEventListener('message', ({ data }) => {
+          if (this.#socket !== socket) return;
+          this.#receive(data);
+          if (this.welcome && this.scene) {
+            clearTimeout(timer);
+            resolve(undefined);
+          }
+        });
+      });
+      if (frames || client) await this.send('hello', { client, caps: frames ? ['flow.ack'] : [], window: frames || undefined });
+      // A camera refused then is refused now; the connection is good all the same.
+      if (this.#camera) await this.send('camera', this.#camera).catch(() => {});
+      if (socket.readyState !== 1) throw new WeftError('closed', 'closed by the server');
+    } catch (error) {
+      socket.close();
+      throw error;
+    }
+    this.#open = true;
+    this.#options.onstate?.('open', {});
+    this.#deliver();
+  }
+
+  /** The socket is closed: the end of an attempt, or of an open connection. */
+  async #lost({ code, reason }) {
+    const wasOpen = this.#open;
+    this.#open = false;
+    const error = new WeftError('closed', `connection closed with ${code}${reason ? `: ${reason}` : ''}`);
+    this.#failRequests(error);
+    if (this.#closed || !wasOpen) return;
+    if (!this.#options.reconnect) {
+      this.#end(error, { code, reason });
+      return;
+    }
+    await this.#wait(backoff(0), { code, reason });
+    // With reconnect only close() ends open() by an error, and it has told onstate.
+    await this.open().catch(() => {});
+  }
+
+  /** No further connection will be made. */
+  #end(error, why) {
+    this.#closed = true;
+    this.#open = false;
+    this.#failRequests(error);
+    for (const waiter of this.#waiters) {
+      clearTimeout(waiter.timer);
+      waiter.reject(error);
+    }
+    this.#waiters.clear();
+    this.#options.onstate?.('closed', why);
+  }
+
+  #wait(delay, why) {
+    this.#options.onstate?.('waiting', { ...why, delay });
+    return new Promise((resolve) => {
+      const timer = setTimeout(resolve, delay);
+      this.#wake = () => {
+        clearTimeout(timer);
+        resolve(undefined);
+      };
+    });
+  }
+
+  #failRequests(error) {
+    for (const request of this.#requests.values()) {
+      clearTimeout(request.timer);
+      request.reject(error);
+    }
+    this.#requests.clear();
+  }
+
+  #receive(data) {
+    if (typeof data !== 'string') {
+      this.#newest = data;
+      this.#deliver();
+      return;
+    }
+    const message = JSON.parse(data);
+    // Noted here and not where `hello` is awaited: a frame may follow before that code runs.
+    if (message.op === 'ok' && message.caps) this.#acks = message.caps.includes('flow.ack');
+    const request = this.#requests.get(message.re);
+    if (request) {
+      this.#requests.delete(message.re);
+      clearTimeout(request.timer);
+      if (message.op === 'error') request.reject(new WeftError(message.code, message.message, message.path));
+      else request.resolve(message);
+      return;
+    }
+    if (message.op === 'welcome') this.welcome = message;
+    if (message.op === 'scene') this.scene = message;
+    this.#options.onmessage?.(message);
+  }
+
+  /** Gives the newest frame to the listeners, then acknowledges it; what comes meanwhile waits as the newest. */
+  async #deliver() {
+    if (this.#delivering) return;
+    this.#delivering = true;
+    while (this.#open && this.#newest) {
+      const socket = this.#socket, data = this.#newest;
+      this.#newest = null;
+      try {
+        const frame = decodeFrame(data);
+        this.frame = frame;
+        for (const waiter of [...this.#waiters]) {
+          if (!waiter.accept(frame)) continue;
+          this.#waiters.delete(waiter);
+          clearTimeout(waiter.timer);
+          waiter.resolve(frame);
+        }
+        try {
+          await this.#options.onframe?.(frame);
+        } finally {
+          if (this.#acks && this.#socket === socket) this.post('ack', { f: frame.stamp.f });
+        }
+      } catch (error) {
+        this.#options.onerror?.(/** @type {Error} */ (error));
+      }
+    }
+    this.#delivering = false;
+  }
+}
+
+/**
+ * Connects to a scene: resolved when the server has greeted, described the scene, and agreed on the flow of frames.
+ * @param {string|URL} url ws://HOST:PORT/v1/scenes/NAME @param {Options} [options] @returns {Promise<WeftClient>}
+ */
+export function connect(url, options = {}) {
+  return new WeftClient(url, options).open();
+}

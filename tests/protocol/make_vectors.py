@@ -1,0 +1,261 @@
+#!/usr/bin/python3
+"""Writes protocol/vectors/frames.json, the good and bad frames that all implementations are tested with.
+
+The encoder here is written from PROTOCOL.md alone, as plainly as it can be (bits as text), and shares nothing with the
+implementations. tests/protocol/hand_frame.json, computed by hand, checks this one.
+
+make_vectors.py          writes the file
+make_vectors.py --check  fails if the file is not what this script writes
+"""
+import json
+import math
+import pathlib
+import struct
+import sys
+
+VECTORS = pathlib.Path(__file__).resolve().parents[2] / "protocol" / "vectors" / "frames.json"
+LAST, PAUSED, SLOW = 1, 2, 4
+
+
+def zigzag(e):
+    return 2 * e if e >= 0 else -2 * e - 1
+
+
+def pack(values, width):
+    """Values of `width` bits, least significant bit first."""
+    bits = "".join(format(value, f"0{width}b")[::-1] if width else "" for value in values)
+    return bytes(int(bits[i:i + 8].ljust(8, "0")[::-1], 2) for i in range(0, len(bits), 8))
+
+
+def grid_payload(axes, rows, cols, width=None):
+    """Codec 1; `axes` holds one flat list of integers each. A given `width` is used for all groups."""
+    payload = b""
+    for q in axes:
+        def at(r, c):
+            return q[r * cols + c]
+        z = []
+        for r in range(rows):
+            for c in range(cols):
+                if r == 0 and c == 0:
+                    predicted = 0
+                elif r == 0:
+                    predicted = at(r, c - 1)
+                elif c == 0:
+                    predicted = at(r - 1, c)
+                else:
+                    predicted = at(r, c - 1) + at(r - 1, c) - at(r - 1, c - 1)
+                z.append(zigzag(at(r, c) - predicted))
+        for i in range(0, len(z), 16):
+            group = z[i:i + 16]
+            w = max(group).bit_length() if width is None else width
+            payload += bytes([w]) + pack(group, w)
+    return payload
+
+
+def record(payload, *, magic=b"WEFT", version=1, kind=1, flags=LAST, header_length=64, codec=1, bits=16, cloth=0, f=120,
+           epoch=1, time=2.0, server_ms=4115200, level=5, simulated_level=6, cols=0, rows=0, origin=(0, 0, 0), quantum=1.0,
+           payload_length=None):
+    length = len(payload) if payload_length is None else payload_length
+    head = struct.pack("<4sBBHHBBIIIdIBBHHH3ffI", magic, version, kind, flags, header_length, codec, bits, cloth, f, epoch,
+                       time, server_ms, level, simulated_level, 0, cols, rows, *origin, quantum, length)
+    assert len(head) == 64
+    return head + bytes(range(1, max(0, header_length - 64) + 1)) + payload
+
+
+class Cloth:
+    """A cloth record with what it must decode to."""
+
+    def __init__(self, axes, rows, cols, *, bits=16, origin=(0.0, 0.0, 0.0), quantum=2.0 ** -14, width=None, finest=False, **head):
+        self.axes, self.rows, self.cols, self.bits, self.origin, self.quantum = axes, rows, cols, bits, origin, quantum
+        self.width, self.finest, self.head = width, finest, head
+
+    def bytes(self, **more):
+        return record(grid_payload(self.axes, self.rows, self.cols, self.width), bits=self.bits, cols=self.cols, rows=self.rows,
+                      origin=self.origin, quantum=self.quantum, **{**self.head, **more})
+
+    def expected(self):
+        positions = [o + value * self.quantum for node in zip(*self.axes) for value, o in zip(node, self.origin)]
+        return {"cloth": self.head.get("cloth", 0), "level": self.head.get("level", 5),
+                "simulated_level": self.head.get("simulated_level", 6), "rows": self.rows, "cols": self.cols, "bits": self.bits,
+                "origin": self.origin, "quantum": self.quantum, "q": self.axes,
+                # True: the lattice is the finest that covers these positions, so an encoder must choose it.
+                "finest": self.finest,
+                "positions_f32": struct.pack(f"<{len(positions)}f", *positions).hex()}
+
+
+def ball_payload(balls):
+    return b"".join(struct.pack("<I3ffI", ident, *position, radius, motion) for ident, position, radius, motion in balls)
+
+
+def balls_record(balls, **head):
+    fields = {"kind": 2, "codec": 2, "bits": 0, "level": 0, "simulated_level": 0, "cols": len(balls), "rows": 1, "quantum": 0.0}
+    return record(ball_payload(balls), **{**fields, **head})
+
+
+def f32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def wavy(rows, cols, bits, phase, quantum):
+    """A hanging sheet with waves, on the lattice of `quantum` with its corner at the least value of each axis."""
+    axes = [[], [], []]
+    for r in range(rows):
+        for c in range(cols):
+            u, v = c / (cols - 1), r / (rows - 1)
+            point = (2 * u - 1 + 0.02 * math.sin(7 * v + phase), 1 - 2 * v + 0.01 * math.sin(9 * u),
+                     0.3 * math.sin(6 * u + 3 * v + phase) + 0.05 * math.sin(17 * v))
+            for axis, value in zip(axes, point):
+                axis.append(round(value / quantum))
+    least = [min(axis) for axis in axes]
+    axes = [[value - low for value in axis] for axis, low in zip(axes, least)]
+    assert max(map(max, axes)) < 2 ** bits
+    return Cloth(axes, rows, cols, bits=bits, origin=[low * quantum for low in least], quantum=quantum)
+
+
+def message(name, about, records, expected_cloths=(), expected_balls=(), **stamp):
+    fields = {"f": 120, "epoch": 1, "time": 2.0, "server_ms": 4115200, "flags": 0, **stamp}
+    return {"name": name, "about": about, "hex": b"".join(records).hex(),
+            "expect": {**fields, "cloths": [cloth.expected() for cloth in expected_cloths],
+                       "balls": [{"ball": ident, "position": [f32(x) for x in position], "radius": f32(radius),
+                                  "motion": ("kinematic", "dynamic")[motion]} for ident, position, radius, motion in expected_balls]}}
+
+
+SMALL = Cloth([[0, 1, 0, 1], [1, 1, 0, 0], [0, 0, 0, 255]], 2, 2, bits=8, quantum=1.0, finest=True)
+BALLS = [(1, (0.0, 0.1, 2.5), 0.2, 0), (7, (-3.25, 1e-3, 0.0), 0.05, 1), (4294967295, (1000.0, -1000.0, 0.3), 10.0, 0)]
+
+
+def single(name, about, cloth):
+    return message(name, about, [cloth.bytes()], [cloth])
+
+
+def good():
+    def made(cloth, **changes):
+        cloth.__dict__.update(changes)
+        return cloth
+    ramp = Cloth([[7 * i % 4096 for i in range(15)], [4095 - 13 * i for i in range(15)], [(i * i * 37) % 4096 for i in range(15)]],
+                 3, 5, bits=12, origin=(-0.25, 1.5, -8.0), quantum=2.0 ** -10)
+    top = 65535
+    upper = Cloth([[top, top - 1, 32768, 32767, 40000, 50000, 60000, 33000, top], [32768] * 9, [top] * 9], 3, 3, origin=(-2.0, -2.0, -2.0))
+    # (1, 1) is predicted as 2 * 65535 where it is 0, then as -65535 where it is 65535: the two largest residuals.
+    extreme = Cloth([[0, top, top, 0], [top, 0, 0, top], [0, top, 0, top]], 2, 2)
+    flat = Cloth([[i % 4 for i in range(20)], [i // 4 for i in range(20)], [0] * 20], 5, 4, bits=8, quantum=2.0 ** -2, origin=(0, 0, 0.75))
+    far = Cloth([[0, 1, 2, 65535], [3, 5, 7, 9], [1, 1, 2, 2]], 2, 2, origin=(2.0 ** 20, -2.0 ** 20, 0.0))
+    still = Cloth([[0] * 4, [0] * 4, [0] * 4], 2, 2, origin=(0.5, -1.0, 3.0), quantum=2.0 ** -24, finest=True)
+    padded = Cloth([[5, 5, 5, 5], [0] * 4, [1, 2, 3, 4]], 2, 2, width=18)
+    first, second = wavy(9, 9, 16, 0.7, 2.0 ** -14), wavy(3, 5, 14, 0.1, 2.0 ** -12)
+    first.head, second.head = {"cloth": 0, "level": 3, "simulated_level": 3}, {"cloth": 3, "level": 2, "simulated_level": 4}
+    return [
+        single("small", "2 x 2 on whole metres; computed by hand in tests/protocol/hand_frame.json", SMALL),
+        single("ramp", "3 rows of 5: one group of 15, negative origin", ramp),
+        single("wavy_9x9", "a hanging sheet at level 3, 16 bits", made(wavy(9, 9, 16, 0.2, 2.0 ** -14), finest=True)),
+        single("wavy_17x17", "a hanging sheet at level 4, 14 bits", made(wavy(17, 17, 14, 1.3, 2.0 ** -12), finest=True)),
+        single("upper_half", "first values at and above 32768: a 16-bit residual would wrap", upper),
+        single("extreme_residuals", "residuals +-131070 and widths of 18", extreme),
+        single("flat", "one axis without extent: groups of width 0", flat),
+        single("still", "no extent at all: the finest quantum allowed", still),
+        single("far", "origin so far that decoding rounds to f32", far),
+        single("wide_groups", "groups wider than their values need are read all the same", padded),
+        message("several", "two cloths and three balls of one step",
+                [first.bytes(flags=0), second.bytes(flags=0), balls_record(BALLS)], [first, second], BALLS),
+        message("balls_only", "a scene without cloth", [balls_record(BALLS[:1])], [], BALLS[:1]),
+        message("no_balls", "a list without entries", [balls_record([])]),
+        message("unknown_record", "a record of an unknown type, with an unknown codec, is skipped",
+                [record(b"\xff" * 13, kind=200, codec=77, bits=99, flags=0), SMALL.bytes()], [SMALL]),
+        message("unknown_only", "nothing but an unknown record", [record(b"", kind=3)]),
+        message("long_header", "headers of 72 and 256 bytes: what is not known is skipped",
+                [SMALL.bytes(header_length=72, flags=0), balls_record(BALLS[:2], header_length=256)], [SMALL], BALLS[:2]),
+        message("flags", "paused, slow, and an unknown bit", [SMALL.bytes(flags=LAST | PAUSED | SLOW | 0x8000)], [SMALL],
+                flags=PAUSED | SLOW | 0x8000),
+        message("stamp", "the largest counters", [SMALL.bytes(f=4294967295, epoch=4294967294, time=71582788.25, server_ms=4294967293)],
+                [SMALL], f=4294967295, epoch=4294967294, time=71582788.25, server_ms=4294967293),
+    ]
+
+
+def bad():
+    small, payload = SMALL.bytes(), grid_payload(SMALL.axes, 2, 2)
+    inf, nan = math.inf, math.nan
+    ball = balls_record(BALLS[:1])
+
+    def cloth(body=payload, **head):
+        return record(body, **{"bits": 8, "cols": 2, "rows": 2, **head})
+
+    def one_ball(position=(0.0, 0.0, 0.0), radius=1.0, motion=0, **head):
+        return balls_record([(1, position, radius, motion)], **head)
+    return [
+        ("empty", b"", "empty message"),
+        ("one_byte", small[:1], "header cut short"),
+        ("header_63", small[:63], "header cut short"),
+        ("header_only", small[:64], "payload cut short"),
+        ("payload_cut", small[:-1], "payload cut short"),
+        ("second_header_cut", SMALL.bytes(flags=0) + ball[:40], "header cut short"),
+        ("magic", cloth(magic=b"WEFS"), "wrong magic"),
+        ("magic_reversed", cloth(magic=b"TFEW"), "wrong magic"),
+        ("version_0", cloth(version=0), "version 0"),
+        ("version_2", cloth(version=2), "version 2"),
+        ("header_length_0", cloth(header_length=0), "header_length 0"),
+        ("header_length_7", cloth(header_length=7), "header_length 7"),
+        ("header_length_56", cloth(header_length=56), "header_length 56"),
+        ("header_length_68", cloth(header_length=68), "header_length 68"),
+        ("header_length_264", cloth(header_length=264), "header_length 264"),
+        ("header_length_beyond", cloth(b"", header_length=128)[:100], "header cut short"),
+        ("payload_length_beyond", cloth(payload_length=11), "payload cut short"),
+        ("payload_length_huge", cloth(payload_length=0xffffffff), "payload cut short"),
+        ("after_last", small + ball, "bytes after the last record"),
+        ("trailing_byte", small + b"\0", "bytes after the last record"),
+        ("no_last", cloth(flags=0), "last record is missing"),
+        ("other_step", SMALL.bytes(flags=0) + one_ball(f=121), "records of different steps"),
+        ("other_epoch", SMALL.bytes(flags=0) + one_ball(epoch=2), "records of different steps"),
+        ("time_nan", cloth(time=nan), "time is not finite"),
+        ("time_inf", cloth(time=-inf), "time is not finite"),
+        ("cloth_codec_2", cloth(codec=2), "codec 2"),
+        ("cloth_codec_0", cloth(codec=0), "codec 0"),
+        ("bits_7", cloth(bits=7), "7 bits"),
+        ("bits_17", cloth(bits=17), "17 bits"),
+        ("quantum_0", cloth(quantum=0.0), "unusable origin or quantum"),
+        ("quantum_negative", cloth(quantum=-1.0), "unusable origin or quantum"),
+        ("quantum_nan", cloth(quantum=nan), "unusable origin or quantum"),
+        ("quantum_inf", cloth(quantum=inf), "unusable origin or quantum"),
+        ("quantum_3", cloth(quantum=3.0), "unusable origin or quantum"),
+        ("quantum_subnormal", cloth(quantum=2.0 ** -130), "unusable origin or quantum"),
+        ("quantum_overflow", cloth(quantum=2.0 ** 127), "unusable origin or quantum"),
+        ("origin_nan", cloth(origin=(0.0, nan, 0.0)), "unusable origin or quantum"),
+        ("origin_inf", cloth(origin=(0.0, 0.0, -inf)), "unusable origin or quantum"),
+        ("rows_0", cloth(rows=0), "grid of 0 rows and 2 columns"),
+        ("cols_1", cloth(cols=1), "grid of 2 rows and 1 columns"),
+        ("cols_1026", cloth(cols=1026), "grid of 2 rows and 1026 columns"),
+        ("grid_65535", cloth(rows=65535, cols=65535), "grid of 65535 rows and 65535 columns"),
+        ("grid_larger_than_payload", cloth(rows=1025, cols=1025), "grid payload too short"),
+        ("payload_empty", cloth(b""), "grid payload too short"),
+        ("axis_missing", cloth(bytes.fromhex("0208021209")), "grid payload too short"),
+        ("group_cut", cloth(payload[:-1]), "grid payload too short"),
+        ("width_19", cloth(bytes([19]) + bytes(20)), "group width 19"),
+        ("width_20", cloth(bytes([0, 20]) + bytes(20)), "group width 20"),
+        ("width_255", cloth(bytes([0, 0, 255]) + bytes(20)), "group width 255"),
+        ("grid_trailing", cloth(payload + b"\0\0"), "2 bytes after the grid payload"),
+        # The first residual alone: z = 512 is e = 256, one too many for 8 bits; z = 1 is e = -1.
+        ("value_256", cloth(bytes([10]) + pack([512, 511, 0, 0], 10) + b"\0\0"), "value outside 8 bits"),
+        ("value_negative", cloth(bytes([1]) + pack([1, 0, 0, 0], 1) + b"\0\0"), "value outside 8 bits"),
+        ("balls_codec_1", one_ball(codec=1), "codec 1"),
+        ("balls_rows_2", one_ball(rows=2), "balls in more than one row"),
+        ("balls_count_2", one_ball(cols=2), "balls of another length than their number"),
+        ("balls_count_0", one_ball(cols=0), "balls of another length than their number"),
+        ("ball_cut", record(ball_payload(BALLS[:1])[:-4], kind=2, codec=2, bits=0, cols=1, rows=1),
+         "balls of another length than their number"),
+        ("ball_position_nan", one_ball((0.0, nan, 0.0)), "ball is not finite"),
+        ("ball_radius_inf", one_ball(radius=inf), "ball is not finite"),
+        ("ball_motion_2", one_ball(motion=2), "ball with motion 2"),
+    ]
+
+
+def text():
+    lines = {"good": [json.dumps(vector) for vector in good()],
+             "bad": [json.dumps({"name": name, "hex": data.hex(), "error": error}) for name, data, error in bad()]}
+    return "{\n" + ",\n".join(f'"{part}": [\n' + ",\n".join(items) + "\n]" for part, items in lines.items()) + "\n}\n"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--check"]:
+        if VECTORS.read_text() != text():
+            sys.exit(f"{VECTORS} is not what this script writes")
+    else:
+        VECTORS.write_text(text())
