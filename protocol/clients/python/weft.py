@@ -1,0 +1,451 @@
+"""Weft client: the protocol of PROTOCOL.md (weft.v1) for Python 3.9 and later, on asyncio and the package websockets (10.4).
+
+    import asyncio, weft
+
+    async def main():
+        async with await weft.connect("ws://127.0.0.1:8080/v1/scenes/flag") as scene:
+            await scene.camera(distance=5)
+            ball = await scene.add_ball([0, 1, 2], radius=0.2)
+            await scene.throw_ball(ball, [0, 0, -6])
+            async for frame in scene:                      # the newest one each time
+                print(frame.stamp.f, frame.cloths[0].level, frame.cloths[0].at(0, 0))
+
+    asyncio.run(main())
+"""
+import array
+import asyncio
+import dataclasses
+import json
+import math
+import struct
+import sys
+import typing
+
+try:
+    import websockets
+except ImportError as missing:
+    raise ImportError(
+        f"weft needs the package websockets, which {sys.executable} does not have: apt-get install python3-websockets and use "
+        "/usr/bin/python3, or pip install websockets") from missing
+
+SUBPROTOCOL = "weft.v1"
+MAX_MESSAGE_BYTES = 64 * 1024 * 1024  # of the server's messages: far beyond any scene
+
+
+class WeftError(Exception):
+    """A request refused by the server, a malformed frame, or a connection that failed.
+
+    `code` is one of PROTOCOL.md's, or `bad_frame`, `closed`, `timeout`, `connect`; `path` a JSON pointer into the request.
+    """
+
+    def __init__(self, code: str, message: str, path: str = ""):
+        super().__init__(message)
+        self.code, self.message, self.path = code, message, path
+
+
+# --- Frames (PROTOCOL.md section 4) ---
+
+_HEADER = struct.Struct("<4sBBHHBBIIIdIBBHHH3ffI")
+_BALL = struct.Struct("<I4fI")
+_LAST, _PAUSED, _SLOW = 1, 2, 4
+_GROUP = 16      # values that share a width
+_MAX_WIDTH = 18  # residuals of 16-bit values, zig-zagged, lie below 2^18
+_MAX_FLOAT = 3.4028234663852886e38
+
+
+@dataclasses.dataclass
+class Stamp:
+    f: int           #: steps since the epoch began
+    epoch: int       #: +1 at each reset
+    time: float      #: simulated, s
+    server_ms: int   #: the server's monotonic clock, ms, modulo 2^32
+    paused: bool
+    slow: bool       #: the scene's clock runs behind real time
+
+
+@dataclasses.dataclass
+class Cloth:
+    cloth: int              #: index in the scene
+    level: int              #: of this mesh
+    simulated_level: int    #: level at which the cloth is simulated
+    rows: int               #: nodes along v
+    cols: int               #: nodes along u
+    quantum: float          #: m; positions are exact to half of it
+    positions: array.array  #: float32: x, y, z interleaved, row by row, m
+
+    def at(self, row: int, col: int) -> typing.Tuple[float, float, float]:
+        """Position of a node, m."""
+        i = 3 * (row * self.cols + col)
+        return tuple(self.positions[i:i + 3])
+
+
+@dataclasses.dataclass
+class Ball:
+    ball: int
+    position: typing.Tuple[float, float, float]
+    radius: float
+    motion: str  #: "kinematic" or "dynamic"
+
+
+@dataclasses.dataclass
+class Frame:
+    stamp: Stamp
+    cloths: typing.List[Cloth]
+    balls: typing.List[Ball]
+
+
+def _malformed(reason: str) -> WeftError:
+    return WeftError("bad_frame", reason)
+
+
+def decode_frame(message: bytes) -> Frame:
+    """Decodes one binary message; raises WeftError `bad_frame` on anything malformed."""
+    if not message:
+        raise _malformed("empty message")
+    frame, last, at = None, False, 0
+    while at < len(message):
+        if last:
+            raise _malformed("bytes after the last record")
+        if len(message) - at < _HEADER.size:
+            raise _malformed("header cut short")
+        (magic, version, kind, flags, header_length, codec, bits, cloth, f, epoch, time, server_ms, level, simulated_level, _,
+         cols, rows, x, y, z, quantum, payload_length) = _HEADER.unpack_from(message, at)
+        if magic != b"WEFT":
+            raise _malformed("wrong magic")
+        if version != 1:
+            raise _malformed(f"version {version}")
+        if not 64 <= header_length <= 256 or header_length % 8:
+            raise _malformed(f"header_length {header_length}")
+        if len(message) - at < header_length:
+            raise _malformed("header cut short")
+        if len(message) - at - header_length < payload_length:
+            raise _malformed("payload cut short")
+        last = bool(flags & _LAST)
+        if not math.isfinite(time):
+            raise _malformed("time is not finite")
+        if frame is None:
+            frame = Frame(Stamp(f, epoch, time, server_ms, bool(flags & _PAUSED), bool(flags & _SLOW)), [], [])
+        elif (f, epoch) != (frame.stamp.f, frame.stamp.epoch):
+            raise _malformed("records of different steps")
+        end = at + header_length + payload_length
+        payload = message[at + header_length:end]
+        at = end
+        if kind == 1:
+            if codec != 1:
+                raise _malformed(f"codec {codec}")
+            positions = _decode_grid(payload, rows, cols, bits, (x, y, z), quantum)
+            frame.cloths.append(Cloth(cloth, level, simulated_level, rows, cols, quantum, positions))
+        elif kind == 2:
+            if codec != 2:
+                raise _malformed(f"codec {codec}")
+            frame.balls += _decode_balls(payload, rows, cols)
+        # Other kinds: of a later minor version.
+    if not last:
+        raise _malformed("last record is missing")
+    return frame
+
+
+def _decode_grid(payload, rows, cols, bits, origin, quantum) -> array.array:
+    """Codec 1: three axes of zig-zagged residuals in groups of 16."""
+    if not 8 <= bits <= 16:
+        raise _malformed(f"{bits} bits")
+    top = (1 << bits) - 1
+    quantum_bits, = struct.unpack("<I", struct.pack("<f", quantum))
+    # A positive, normal power of two has neither sign nor fraction bits, and an exponent of neither zeros nor ones.
+    usable = not quantum_bits & 0x807fffff and quantum_bits >> 23 not in (0, 255)
+    if not usable or not all(abs(value) + quantum * top <= _MAX_FLOAT for value in origin):
+        raise _malformed("unusable origin or quantum")
+    if not (2 <= rows <= 1025 and 2 <= cols <= 1025):
+        raise _malformed(f"grid of {rows} rows and {cols} columns")
+    nodes = rows * cols
+    # A group is at least its width byte: no payload buys more memory than it is long.
+    if len(payload) < 3 * -(-nodes // _GROUP):
+        raise _malformed("grid payload too short")
+    positions = array.array("f", bytes(12 * nodes))
+    at = 0
+    for axis, start in enumerate(origin):
+        residuals = []
+        for first in range(0, nodes, _GROUP):
+            if at == len(payload):
+                raise _malformed("grid payload too short")
+            width = payload[at]
+            if width > _MAX_WIDTH:
+                raise _malformed(f"group width {width}")
+            count = min(_GROUP, nodes - first)
+            end = at + 1 + (count * width + 7) // 8
+            if end > len(payload):
+                raise _malformed("grid payload too short")
+            packed, mask = int.from_bytes(payload[at + 1:end], "little"), (1 << width) - 1
+            for shift in range(0, count * width, width) if width else (0,) * count:
+                z = packed >> shift & mask
+                residuals.append(z >> 1 ^ -(z & 1))
+            at = end
+        decoded, above = [], [0] * cols
+        for first in range(0, nodes, cols):
+            # q - P is d - (d to the left), with d = q - (q above).
+            difference, row = 0, []
+            for residual, q in zip(residuals[first:first + cols], above):
+                difference += residual
+                row.append(q + difference)
+            if min(row) < 0 or max(row) > top:
+                raise _malformed(f"value outside {bits} bits")
+            decoded += row
+            above = row
+        positions[axis::3] = array.array("f", [start + q * quantum for q in decoded])
+    if at != len(payload):
+        raise _malformed(f"{len(payload) - at} bytes after the grid payload")
+    return positions
+
+
+def _decode_balls(payload, rows, count) -> typing.List[Ball]:
+    if rows != 1:
+        raise _malformed("balls in more than one row")
+    if len(payload) != count * _BALL.size:
+        raise _malformed("balls of another length than their number")
+    balls = []
+    for ident, x, y, z, radius, motion in _BALL.iter_unpack(payload):
+        if not all(map(math.isfinite, (x, y, z, radius))):
+            raise _malformed("ball is not finite")
+        if motion > 1:
+            raise _malformed(f"ball with motion {motion}")
+        balls.append(Ball(ident, (x, y, z), radius, "dynamic" if motion else "kinematic"))
+    return balls
+
+
+# --- Control messages (PROTOCOL.md sections 2 and 3) ---
+
+def message_text(op: str, members: typing.Optional[dict] = None, id: typing.Optional[int] = None) -> str:
+    """A client message as JSON text: op, id, then the members that are not None."""
+    message = {"op": op, "id": id, **(members or {})}
+    try:
+        return json.dumps({name: value for name, value in message.items() if value is not None}, allow_nan=False)
+    except ValueError as error:
+        raise WeftError("range", f"{op} has a number that is not finite") from error
+
+
+# --- The client ---
+
+async def connect(url: str, *, client: typing.Optional[str] = None, window: int = 2, timeout: float = 5.0,
+                  on_message: typing.Optional[typing.Callable[[dict], None]] = None) -> "Client":
+    """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME: done when the server has greeted, described the scene, and agreed
+    on the flow of frames.
+
+    client      name told to the server
+    window      unacknowledged frames, 1..8; 0: no flow control, the server sends as fast as it can
+    timeout     s to wait for the connection, and for each reply
+    on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `notice`, `error`
+    """
+    connection = Client(timeout, on_message)
+    try:
+        await asyncio.wait_for(connection._open(url), timeout)
+    except asyncio.TimeoutError:
+        await connection.close()
+        raise WeftError("timeout", f"no connection to {url} within {timeout} s") from None
+    except (OSError, websockets.WebSocketException) as error:
+        await connection.close()
+        raise WeftError("connect", f"no connection to {url}: {error}") from error
+    if window or client:
+        try:
+            await connection.send("hello", client=client, caps=["flow.ack"] if window else [], window=window or None)
+        except WeftError:
+            await connection.close()
+            raise
+    return connection
+
+
+class Client:
+    """A connection to one scene. Made by `connect`; iterate over it for frames."""
+
+    def __init__(self, timeout: float, on_message: typing.Optional[typing.Callable[[dict], None]]):
+        self.welcome: typing.Optional[dict] = None  #: the server's `welcome`
+        self.scene: typing.Optional[dict] = None    #: the newest `scene` message
+        self.stats: typing.Optional[dict] = None    #: the newest `stats` message
+        self._timeout, self._on_message = timeout, on_message
+        self._socket = None
+        self._reader: typing.Optional[asyncio.Task] = None
+        self._acks = False
+        self._closing = False
+        self._lost: typing.Optional[WeftError] = None
+        self._next_id = 1
+        self._requests: typing.Dict[int, asyncio.Future] = {}
+        self._newest: typing.Optional[bytes] = None
+        self._news = asyncio.Event()  # a frame has come, or the connection has ended
+        self._greeted = asyncio.Event()
+
+    async def _open(self, url):
+        # The server negotiates no compression; saying so spares the offer.
+        self._socket = await websockets.connect(url, subprotocols=[SUBPROTOCOL], compression=None, max_size=MAX_MESSAGE_BYTES,
+                                                open_timeout=None)
+        self._reader = asyncio.create_task(self._read())
+        await self._greeted.wait()
+        if self._lost:
+            raise self._lost
+
+    async def _read(self):
+        """Takes everything in as it comes, so that nothing queues: replies to their requests, frames to the newest."""
+        error = None
+        try:
+            async for message in self._socket:
+                if isinstance(message, bytes):
+                    self._newest = message
+                    self._news.set()
+                else:
+                    self._receive(json.loads(message))
+        except websockets.ConnectionClosed:
+            pass
+        except Exception as failure:  # of on_message, or a server that does not speak the protocol
+            error = WeftError("closed", f"reading stopped: {failure!r}")
+            await self._socket.close(1002 if isinstance(failure, ValueError) else 1000)
+        code, reason = self._socket.close_code, self._socket.close_reason
+        self._lost = error or WeftError("closed", f"connection closed with {code}{': ' + reason if reason else ''}")
+        for future in self._requests.values():
+            if not future.done():
+                future.set_exception(self._lost)
+        self._news.set()
+        self._greeted.set()
+
+    def _receive(self, message):
+        op = message.get("op")
+        # Noted here and not where `hello` is awaited: a frame may be taken before that code runs.
+        if op == "ok" and "caps" in message:
+            self._acks = "flow.ack" in message["caps"]
+        future = self._requests.get(message.get("re"))
+        if future is not None:
+            if future.done():
+                return
+            if op == "error":
+                future.set_exception(WeftError(message["code"], message["message"], message.get("path", "")))
+            else:
+                future.set_result(message)
+            return
+        if op in ("welcome", "scene", "stats"):
+            setattr(self, op, message)
+        if self.welcome and self.scene:
+            self._greeted.set()
+        if self._on_message:
+            self._on_message(message)
+
+    async def _write(self, text):
+        if self._lost:
+            raise self._lost
+        try:
+            await self._socket.send(text)
+        except websockets.ConnectionClosed as error:
+            raise WeftError("closed", f"connection closed: {error}") from error
+
+    async def close(self):
+        """Ends the connection; open requests fail with code `closed`, iterations end."""
+        self._closing = True
+        if self._socket is not None:
+            await self._socket.close()
+        if self._reader is not None:
+            await self._reader
+
+    async def __aenter__(self):
+        return self
+
+    async def __aexit__(self, *exception):
+        await self.close()
+
+    async def send(self, op: str, **members) -> dict:
+        """Sends a request and returns its `ok` or `pong`; raises the server's `error` as WeftError."""
+        ident = self._next_id
+        self._next_id = ident + 1 if ident < 2147483647 else 1
+        text = message_text(op, members, ident)
+        future = self._requests[ident] = asyncio.get_running_loop().create_future()
+        try:
+            await self._write(text)
+            return await asyncio.wait_for(future, self._timeout)
+        except asyncio.TimeoutError:
+            raise WeftError("timeout", f"no answer to {op} within {self._timeout} s") from None
+        finally:
+            del self._requests[ident]
+
+    async def post(self, op: str, **members) -> None:
+        """Sends a message that only an error would answer (to `on_message`)."""
+        await self._write(message_text(op, members))
+
+    async def camera(self, *, distance: typing.Optional[float] = None, eye=None) -> dict:
+        """Where this viewer's camera is: exactly one of its distance (m) and its position."""
+        return await self.send("camera", distance=distance, eye=eye)
+
+    async def list_scenes(self) -> typing.List[dict]:
+        return (await self.send("scene.list"))["scenes"]
+
+    async def join_scene(self, scene: str) -> dict:
+        """Leaves the scene and joins another; its `scene` message and frames follow."""
+        return await self.send("scene.join", scene=scene)
+
+    async def add_ball(self, position, radius: float, *, velocity=None, motion: typing.Optional[str] = None,
+                       mass: typing.Optional[float] = None) -> int:
+        """Adds a ball (m, m/s, kg; motion "kinematic" or "dynamic") and returns its id."""
+        ok = await self.send("ball.add", position=position, radius=radius, velocity=velocity, motion=motion, mass=mass)
+        return ok["ball"]
+
+    async def move_ball(self, ball: int, position) -> dict:
+        return await self.send("ball.move", ball=ball, position=position)
+
+    async def throw_ball(self, ball: int, velocity) -> dict:
+        return await self.send("ball.throw", ball=ball, velocity=velocity)
+
+    async def remove_ball(self, ball: int) -> dict:
+        return await self.send("ball.remove", ball=ball)
+
+    async def set_wind(self, direction, speed: float) -> dict:
+        """Direction of any length but zero; speed in m/s."""
+        return await self.send("wind.set", direction=direction, speed=speed)
+
+    async def pause(self) -> dict:
+        return await self.send("pause")
+
+    async def resume(self) -> dict:
+        return await self.send("resume")
+
+    async def reset(self) -> dict:
+        return await self.send("reset")
+
+    async def step(self, count: int = 1) -> dict:
+        """Steps a paused scene."""
+        return await self.send("step", count=count)
+
+    async def ping(self) -> float:
+        """Round-trip time, s."""
+        start = asyncio.get_running_loop().time()
+        await self.send("ping", t=start)
+        return asyncio.get_running_loop().time() - start
+
+    def __aiter__(self):
+        return self
+
+    async def __anext__(self) -> Frame:
+        """The newest frame not seen yet, acknowledged as it is taken. Frames nobody takes are not acknowledged, and the server
+        then stops sending. Ends when either side closes in order; raises WeftError when the connection is lost."""
+        while self._newest is None:
+            if self._lost:
+                if self._closing or self._socket.close_code in (1000, 1001):
+                    raise StopAsyncIteration
+                raise self._lost
+            self._news.clear()
+            await self._news.wait()
+        message, self._newest = self._newest, None
+        frame = decode_frame(message)
+        if self._acks and not self._lost:
+            try:
+                await self.post("ack", f=frame.stamp.f)
+            except WeftError:
+                pass  # closed meanwhile: the next frame asked for tells
+        return frame
+
+    async def next_frame(self, accept: typing.Callable[[Frame], bool] = lambda frame: True,
+                         timeout: typing.Optional[float] = None) -> Frame:
+        """The next frame for which `accept` is true, within `timeout` s (default: that of the connection)."""
+        async def search():
+            async for frame in self:
+                if accept(frame):
+                    return frame
+            raise WeftError("closed", "closed before such a frame")
+        seconds = self._timeout if timeout is None else timeout
+        try:
+            return await asyncio.wait_for(search(), seconds)
+        except asyncio.TimeoutError:
+            raise WeftError("timeout", f"no such frame within {seconds} s") from None
