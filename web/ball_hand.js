@@ -46,7 +46,7 @@ export class BallHand {
     const facing = this.stage.camera.getWorldDirection(new Vector3());
     this.drag = {
       pointer: event.pointerId,
-      ball: ball.id,
+      ball: ball.ball,
       plane: new Plane().setFromNormalAndCoplanarPoint(facing, hit.point),
       offset: hit.object.position.clone().sub(hit.point),  // the hand keeps its place on the ball
       speed: new ThrowSpeed(),
@@ -56,7 +56,7 @@ export class BallHand {
     };
     this.canvas.setPointerCapture(event.pointerId);
     this.actions.holding(true);
-    this.actions.taken(ball.id);
+    this.actions.taken(ball.ball);
     this.canvas.style.cursor = 'grabbing';
   }
 

@@ -14,14 +14,14 @@ export class BallsView {
 
   /** Shows the balls of `after`, on the way from `before` by `share`. */
   show(before, after, share) {
-    const earlier = new Map(before.map((ball) => [ball.id, ball]));
+    const earlier = new Map(before.map((ball) => [ball.ball, ball]));
     const gone = new Set(this.meshes.keys());
     const place = new Vector3();
     for (const ball of after) {
-      gone.delete(ball.id);
-      const mesh = this.meshes.get(ball.id) ?? this.#add(ball.id);
+      gone.delete(ball.ball);
+      const mesh = this.meshes.get(ball.ball) ?? this.#add(ball.ball);
       mesh.position.fromArray(ball.position);
-      const from = earlier.get(ball.id);
+      const from = earlier.get(ball.ball);
       if (from && share < 1) mesh.position.lerpVectors(place.fromArray(from.position), mesh.position, share);
       mesh.scale.setScalar(ball.radius);
       mesh.userData.ball = ball;
@@ -53,7 +53,7 @@ export class BallsView {
   }
 
   #add(id) {
-    const colour = new Color(kColours[id % kColours.length]);
+    const colour = new Color(kColours[(id - 1) % kColours.length]);
     const material = new MeshStandardMaterial({color: colour, roughness: 0.35, emissive: colour, emissiveIntensity: 0});
     const mesh = new Mesh(this.geometry, material);
     mesh.castShadow = mesh.receiveShadow = true;

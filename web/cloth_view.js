@@ -1,25 +1,28 @@
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshStandardMaterial,
+  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial, MeshStandardMaterial,
 } from './three/three.module.js';
-import {centreOf, gridNormals, heightRange, materialCoordinates, sideIndices, triangleIndices} from './grid.js';
+import {centreOf, gridNormals, lowestOf, materialCoordinates, sideIndices, triangleIndices} from './grid.js';
 import {Morph} from './morph.js';
 
-/** What all cloths of a page share: the fabric and the wireframe's ink. */
-export function clothMaterials(textures) {
-  const fabric = new MeshStandardMaterial({
-    map: textures.map,
-    bumpMap: textures.bumpMap,
-    bumpScale: 1.5,
-    roughness: 0.92,
-    metalness: 0,
+/**
+ * What all cloths of a page share: the fabric and the wireframe's ink.
+ * @param {{map: Texture, bumpMap: Texture}} textures
+ * @param {boolean} high with bumps and the full model of light
+ */
+export function clothMaterials({map, bumpMap}, high) {
+  const common = {
+    map,
     side: DoubleSide,
     // Pushed back a little so that the wireframe on the same surface wins.
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
-  });
-  const wire = new LineBasicMaterial({color: new Color(0xfff4d6), transparent: true, opacity: 0.85});
+  };
+  const fabric = high
+    ? new MeshStandardMaterial({...common, bumpMap, bumpScale: 1.5, roughness: 0.92})
+    : new MeshLambertMaterial(common);
+  const wire = new LineBasicMaterial({color: 0xfff4d6, transparent: true, opacity: 0.85});
   return {fabric, wire};
 }
 
@@ -27,7 +30,7 @@ export function clothMaterials(textures) {
 export class ClothView {
   /**
    * @param {{cloth: number, name?: string, size: number[]}} description from the `scene` message
-   * @param {{fabric: MeshStandardMaterial, wire: LineBasicMaterial}} materials
+   * @param {ReturnType<typeof clothMaterials>} materials
    * @param {boolean} instant no morph between levels
    */
   constructor(description, materials, instant) {
@@ -61,9 +64,9 @@ export class ClothView {
     return this.morph.active;
   }
 
-  /** Lowest and highest y shown. */
-  heights() {
-    return heightRange(this.geometry.attributes.position.array);
+  /** Lowest y shown, m. */
+  lowest() {
+    return lowestOf(this.geometry.attributes.position.array);
   }
 
   set wireframe(visible) {

@@ -118,12 +118,9 @@ export function centreOf(positions) {
   return [x / nodes, y / nodes, z / nodes];
 }
 
-/** Lowest and highest y of the nodes. */
-export function heightRange(positions) {
-  let low = Infinity, high = -Infinity;
-  for (let at = 1; at < positions.length; at += 3) {
-    if (positions[at] < low) low = positions[at];
-    if (positions[at] > high) high = positions[at];
-  }
-  return [low, high];
+/** Lowest y of the nodes. */
+export function lowestOf(positions) {
+  let low = Infinity;
+  for (let at = 1; at < positions.length; at += 3) low = Math.min(low, positions[at]);
+  return low;
 }

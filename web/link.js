@@ -4,7 +4,7 @@
  * Events (all CustomEvents, payload in `detail`):
  *   state    {state: 'connecting'|'open'|'lost'|'refused', ...}  see worker.js
  *   message  a server message that is no reply: welcome, scene, event, stats, notice
- *   frame    {frame, arrivedMs}
+ *   frame    {frame, arrivedMs, bytes}
  */
 export class Link extends EventTarget {
   constructor() {
@@ -19,11 +19,6 @@ export class Link extends EventTarget {
   /** Connects and stays connected until the page goes. `scene` null: the first the service lists. */
   open(server, scene) {
     this.worker.postMessage({kind: 'open', server, scene});
-  }
-
-  /** From now on a new connection goes to this scene. */
-  remember(scene) {
-    this.worker.postMessage({kind: 'remember', scene});
   }
 
   /** Does not wait any longer before the next attempt. */
@@ -62,6 +57,7 @@ export class Link extends EventTarget {
         break;
       case 'frame':
         this.#emit('frame', data);
+        this.worker.postMessage({kind: 'taken'});
         break;
     }
   }

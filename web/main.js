@@ -22,9 +22,10 @@ try {
 function start(settings) {
   const instant = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const canvas = document.getElementById('stage');
+  document.documentElement.classList.toggle('low', !settings.high);
   const stage = new Stage(canvas, settings);
   const rig = new CameraRig(stage, instant);
-  const show = new Show(stage, {instant, wireframe: settings.wireframe});
+  const show = new Show(stage, {instant, wireframe: settings.wireframe, high: settings.high});
   const link = new Link();
   const counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
   let sceneShown = null;     // whose camera place was taken: a reconnection keeps the viewer's own
@@ -47,6 +48,7 @@ function start(settings) {
   };
   const actions = {
     joinScene: async (scene) => {
+      if (!link.connected) return link.open(settings.server, scene);
       if (!(await command({op: 'scene.join', scene}))) panel.setScenes(scenes, sceneShown);
     },
     setPaused: (paused) => command({op: paused ? 'pause' : 'resume'}),
@@ -128,7 +130,6 @@ function start(settings) {
         history.replaceState(null, '', addressOfScene(new URL(location.href), message.name));
       }
       sceneShown = message.name;
-      link.remember(message.name);
       document.title = `${message.title || message.name} · Weft`;
       panel.setScenes(scenes, message.name);
       panel.setTitle(message.title);

@@ -151,7 +151,6 @@ export class Panel {
     byId('wind-speed-value').textContent = `${speed.toFixed(1)} m/s`;
     byId('wind-heading-value').textContent = `${heading}°`;
     byId('wind-tilt-value').textContent = `${tilt}°`;
-    byId('compass-needle').style.transform = `rotate(${heading}deg)`;
   }
 
   #wireBalls() {

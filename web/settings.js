@@ -4,15 +4,14 @@
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" without a path
  * @property {string|null} scene name of the scene; null: the first one the service lists
- * @property {boolean} antialias
- * @property {boolean} shadows
+ * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
  * @property {boolean} wireframe
  */
 
 /**
  * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, and `?quality=low` for machines that draw without a
- * graphics card (no antialiasing, no shadows, one device pixel a pixel).
+ * graphics card.
  * @param {URL} address the page's own
  * @param {number} devicePixelRatio
  * @returns {Settings}
@@ -23,8 +22,7 @@ export function readSettings(address, devicePixelRatio) {
   return {
     server: serverAddress(parameters.get('server'), address),
     scene: parameters.get('scene') || null,
-    antialias: high,
-    shadows: high,
+    high,
     // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
     pixelRatio: high ? Math.min(devicePixelRatio, 2) : 1,
     wireframe: parameters.get('wireframe') === '1',

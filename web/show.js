@@ -5,7 +5,7 @@ import {weaveTextures} from './weave.js';
 import {WindArrow} from './wind_arrow.js';
 
 const kWindEffects = ['paper_wind', 'aerodynamics'];
-const kFabric = {warp: [38, 78, 128], weft: [64, 112, 168], stripe: [240, 228, 204]};
+const kFabric = {warp: [44, 88, 148], weft: [70, 116, 176], stripe: [246, 236, 214]};
 
 const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - centre[1], eye[2] - centre[2]);
 
@@ -13,7 +13,7 @@ const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - cent
 export class Show {
   /**
    * @param {import('./stage.js').Stage} stage
-   * @param {{instant: boolean, wireframe: boolean}} options
+   * @param {{instant: boolean, wireframe: boolean, high: boolean}} options
    */
   constructor(stage, options) {
     this.stage = stage;
@@ -21,9 +21,10 @@ export class Show {
     this.wireframe = options.wireframe;
     this.timeline = new Timeline();
     this.balls = new BallsView();
-    this.arrow = new WindArrow();
-    this.materials = clothMaterials(weaveTextures(kFabric, stage.renderer.capabilities.getMaxAnisotropy()));
-    stage.scene.add(this.balls.group, this.arrow.group);
+    this.arrow = new WindArrow(document.getElementById('wind-arrow'));
+    stage.overlays.push(this.arrow);
+    this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
+    stage.scene.add(this.balls.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
     this.description = null;
@@ -85,7 +86,7 @@ export class Show {
       const earlier = before.cloths.find((each) => each.cloth === record.cloth) ?? record;
       morphing = view.show(earlier, record, share, nowMs) || morphing;
     }
-    this.balls.show(before.balls ?? [], after.balls ?? [], share);
+    this.balls.show(before.balls, after.balls, share);
     this.stamp = after.stamp;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;
@@ -109,14 +110,12 @@ export class Show {
     return {minLevel, maxLevel};
   }
 
-  /** Ground, light and arrow: set once a scene; the ground then gives way to a cloth that comes lower. */
+  /** Ground and light: set once a scene; the ground then gives way to a cloth that comes lower. */
   #arrange(first) {
-    let low = Infinity, high = -Infinity, extent = 0;
+    let low = Infinity, extent = 0;
     for (const view of this.cloths.values()) {
       if (!view.record) continue;
-      const [least, most] = view.heights();
-      low = Math.min(low, least);
-      high = Math.max(high, most);
+      low = Math.min(low, view.lowest());
       extent = Math.max(extent, ...view.size);
     }
     if (extent === 0) return;
@@ -128,7 +127,6 @@ export class Show {
     const {centre} = this.cloths.values().next().value;
     if (first) {
       this.stage.frame(centre, extent, low - 0.25 * extent);
-      this.arrow.place(centre[0], high + 0.22 * extent, centre[2]);
     } else if (low < this.stage.groundHeight + 0.02) {
       this.stage.lowerGroundTo(low - 0.02);
     }

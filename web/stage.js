@@ -1,11 +1,11 @@
 import {
-  CanvasTexture, Color, DirectionalLight, Fog, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping, PCFShadowMap,
-  PerspectiveCamera, PlaneGeometry, Scene, ShadowMaterial, SRGBColorSpace, WebGLRenderer,
+  CanvasTexture, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping, PCFShadowMap,
+  PerspectiveCamera, PlaneGeometry, RepeatWrapping, Scene, ShadowMaterial, SRGBColorSpace, WebGLRenderer,
 } from './three/three.module.js';
 
 const kThemes = {
-  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.16)', sky: 0xffffff, earth: 0xb8ada0, ambient: 1.5, shadow: 0.28},
-  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.13)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 0.9, shadow: 0.5},
+  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xb8ada0, ambient: 1.9, shadow: 0.22},
+  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, shadow: 0.5},
 };
 const kGroundMetres = 40;
 
@@ -16,14 +16,18 @@ export class Stage {
    * @param {import('./settings.js').Settings} settings
    */
   constructor(canvas, settings) {
-    this.renderer = new WebGLRenderer({canvas, antialias: settings.antialias});
+    this.renderer = new WebGLRenderer({canvas, antialias: settings.high});
     this.renderer.setPixelRatio(settings.pixelRatio);
     this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.shadowMap.enabled = settings.shadows;
+    this.renderer.shadowMap.enabled = settings.high;
     this.renderer.shadowMap.type = PCFShadowMap;
+    /** How many samples slanted textures may cost. */
+    this.anisotropy = settings.high ? Math.min(8, this.renderer.capabilities.getMaxAnisotropy()) : 1;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(42, 1, 0.02, 200);
     this.changed = true;  // something to draw
+    /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
+    this.overlays = [];
     this.#addLights();
     this.#addGround();
     this.#followTheme();
@@ -57,11 +61,12 @@ export class Stage {
   draw() {
     this.changed = false;
     this.renderer.render(this.scene, this.camera);
+    for (const overlay of this.overlays) overlay.draw(this.renderer, this.camera);
   }
 
   #addLights() {
     this.ambient = new HemisphereLight();
-    this.key = new DirectionalLight(0xfff3e0, 2.6);
+    this.key = new DirectionalLight(0xfff3e0, 3.0);
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(2048, 2048);
     this.key.shadow.normalBias = 0.012;
@@ -77,7 +82,8 @@ export class Stage {
     const plane = new PlaneGeometry(kGroundMetres, kGroundMetres).rotateX(-Math.PI / 2);
     this.ground = new Mesh(plane, new ShadowMaterial({transparent: true}));
     this.ground.receiveShadow = true;
-    this.grid = new Mesh(plane, new MeshBasicMaterial({transparent: true, depthWrite: false, toneMapped: false}));
+    this.ground.visible = this.renderer.shadowMap.enabled;  // it is nothing but the shadow on it
+    this.grid = new Mesh(plane, new MeshBasicMaterial({transparent: true, depthWrite: false, toneMapped: false, alphaMap: fadeTexture()}));
     this.ground.renderOrder = 1;
     this.scene.add(this.grid, this.ground);
   }
@@ -92,7 +98,7 @@ export class Stage {
       this.ambient.intensity = theme.ambient;
       this.ground.material.opacity = theme.shadow;
       this.grid.material.map?.dispose();
-      this.grid.material.map = groundTexture(theme.line, this.renderer.capabilities.getMaxAnisotropy());
+      this.grid.material.map = tileTexture(theme.line, this.anisotropy);
       this.grid.material.needsUpdate = true;
       this.changed = true;
     };
@@ -110,29 +116,34 @@ export class Stage {
   }
 }
 
-/** A line every metre, fading out towards the rim. */
-function groundTexture(line, anisotropy) {
-  const size = 2048;
+/** One metre of ground: lines along two of its sides, repeated to cover the rest. */
+function tileTexture(line, anisotropy) {
+  const size = 512;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = size;
   const pen = canvas.getContext('2d');
-  pen.strokeStyle = line;
-  pen.lineWidth = 2;
-  for (let metre = 0; metre <= kGroundMetres; ++metre) {
-    const at = (metre / kGroundMetres) * size;
-    pen.beginPath();
-    pen.moveTo(at, 0), pen.lineTo(at, size);
-    pen.moveTo(0, at), pen.lineTo(size, at);
-    pen.stroke();
-  }
-  const fade = pen.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
-  fade.addColorStop(0, 'rgba(0, 0, 0, 1)');
-  fade.addColorStop(0.8, 'rgba(0, 0, 0, 0)');
-  pen.globalCompositeOperation = 'destination-in';
-  pen.fillStyle = fade;
-  pen.fillRect(0, 0, size, size);
+  pen.fillStyle = line;
+  pen.fillRect(0, 0, size, 5);
+  pen.fillRect(0, 5, 5, size - 5);
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.repeat.set(kGroundMetres, kGroundMetres);
   texture.anisotropy = anisotropy;
   return texture;
+}
+
+/** The ground fades out towards its rim. (An alpha map is read from green.) */
+function fadeTexture() {
+  const size = 256;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = size;
+  const pen = canvas.getContext('2d');
+  const fade = pen.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
+  fade.addColorStop(0, '#fff');
+  fade.addColorStop(0.25, '#aaa');
+  fade.addColorStop(1, '#000');
+  pen.fillStyle = fade;
+  pen.fillRect(0, 0, size, size);
+  return new CanvasTexture(canvas);
 }

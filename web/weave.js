@@ -1,18 +1,15 @@
 import {CanvasTexture, RepeatWrapping, SRGBColorSpace} from './three/three.module.js';
 
-/** Threads across one repeat of the pattern, and the width of cloth it covers. A thread every 6 mm: coarse linen, so that it shows. */
-const kThreads = 32;
+/** One repeat of the pattern: threads across it, and the width of cloth it covers. Threads of 6 mm: coarse, so that they show. */
+const kThreads = 64;
+const kRepeatMetres = 0.4;
 const kPixelsPerThread = 16;
-const kRepeatMetres = 0.2;
 
-/** Height of the fabric at a point of a plain weave, 0..1: the higher of warp and weft, each a rounded thread going over and under. */
-function weaveHeight(u, v) {
-  const over = Math.cos(Math.PI * u) * Math.cos(Math.PI * v);  // sign tells which thread lies on top
-  const round = (x) => Math.sqrt(Math.max(0, 1 - (2 * (x - Math.floor(x)) - 1) ** 2));
-  const warp = round(u) * (0.55 + 0.45 * Math.sin(Math.PI * (v + Math.floor(u))));
-  const weft = round(v) * (0.55 + 0.45 * Math.sin(Math.PI * (u + Math.floor(v) + 1)));
-  return {height: Math.max(warp, weft), isWarp: warp > weft, over};
-}
+/** Warp threads (they run down the cloth) of another colour: a group of three stripes in each repeat. */
+const isStripe = (thread) => thread < 2 || (thread >= 4 && thread < 10) || (thread >= 12 && thread < 14);
+
+/** Profile of a round thread across its width, 0 at its edges. */
+const round = (x) => Math.sqrt(Math.max(0, 1 - (2 * (x - Math.floor(x)) - 1) ** 2));
 
 /** Small numbers that look random and are the same on every machine. */
 function noise(i) {
@@ -20,16 +17,20 @@ function noise(i) {
   return x - Math.floor(x);
 }
 
+/** A plain weave at (u, v), counted in threads: how high the fabric is, 0..1, and whether the warp lies on top. */
+function weave(u, v) {
+  const warp = round(u) * (0.6 + 0.4 * Math.sin(Math.PI * (v + Math.floor(u))));
+  const weft = round(v) * (0.6 + 0.4 * Math.sin(Math.PI * (u + Math.floor(v) + 1)));
+  return {height: Math.max(warp, weft), isWarp: warp > weft};
+}
+
 /**
- * Draws the fabric: colour, and the bumps of its threads.
- * @param {object} colours
- * @param {number[]} colours.warp sRGB 0..255
- * @param {number[]} colours.weft
- * @param {number[]} colours.stripe of the woven check
+ * Draws the fabric: its colour, and the bumps of its threads. Texture coordinates are metres.
+ * @param {{warp: number[], weft: number[], stripe: number[]}} colours sRGB, 0..255
  * @param {number} anisotropy the graphics card's best filter for slanted views
- * @returns {{map: CanvasTexture, bumpMap: CanvasTexture}} both repeat every metre-based unit given by `kRepeatMetres`
+ * @returns {{map: CanvasTexture, bumpMap: CanvasTexture}}
  */
-export function weaveTextures({warp, weft, stripe}, anisotropy) {
+export function weaveTextures(colours, anisotropy) {
   const size = kThreads * kPixelsPerThread;
   const colour = new ImageData(size, size);
   const bump = new ImageData(size, size);
@@ -37,14 +38,14 @@ export function weaveTextures({warp, weft, stripe}, anisotropy) {
     for (let x = 0; x < size; ++x) {
       const u = (x + 0.5) / kPixelsPerThread;
       const v = (y + 0.5) / kPixelsPerThread;
-      const {height, isWarp} = weaveHeight(u, v);
-      const thread = isWarp ? Math.floor(u) : Math.floor(v);
-      const base = thread < 2 ? stripe : isWarp ? warp : weft;
+      const {height, isWarp} = weave(u, v);
+      const thread = Math.floor(isWarp ? u : v);
+      const dye = isWarp ? (isStripe(thread) ? colours.stripe : colours.warp) : colours.weft;
       // Gaps between threads are dark, and no two threads took the dye alike.
-      const shade = (0.62 + 0.38 * height) * (0.95 + 0.1 * noise(thread + (isWarp ? 0 : 100)));
+      const shade = (0.66 + 0.34 * height) * (0.94 + 0.12 * noise(thread + (isWarp ? 0 : 100)));
       const at = (y * size + x) * 4;
       for (let channel = 0; channel < 3; ++channel) {
-        colour.data[at + channel] = base[channel] * shade;
+        colour.data[at + channel] = Math.min(255, dye[channel] * shade);
         bump.data[at + channel] = 255 * height;
       }
       colour.data[at + 3] = bump.data[at + 3] = 255;

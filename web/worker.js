@@ -1,144 +1,162 @@
 /**
- * The connection, off the page's thread: socket, decoding, replies by id, reconnecting.
+ * The connection, off the page's thread: socket, decoding and reconnecting (all of them protocol/clients/js), and what a page
+ * needs beside: the first scene's name, a plain word when there is no such scene, a pulse.
  *
- * From the page: {kind: 'open', server, scene}, {kind: 'remember', scene}, {kind: 'retry'}, {kind: 'request', key, message}.
+ * From the page:
+ *   {kind: 'open', server, scene}   connect; scene null: the first the server lists
+ *   {kind: 'retry'}                 do not wait any longer
+ *   {kind: 'request', key, message}
+ *   {kind: 'taken'}                 the last frame has been taken: only then comes the next
  * To the page:
  *   {kind: 'state', state: 'connecting'}
  *   {kind: 'state', state: 'open'}
- *   {kind: 'state', state: 'lost', reason, retryMs}       tries again by itself
- *   {kind: 'state', state: 'refused', reason, scenes}     there is no such scene; waits for another 'open'
- *   {kind: 'message', message}                            a server message that is no reply
+ *   {kind: 'state', state: 'lost', reason, retryMs}      tries again by itself
+ *   {kind: 'state', state: 'refused', reason, scenes}    there is no such scene; waits for another 'open'
+ *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}
  *   {kind: 'reply', key, message | error}
- *   {kind: 'frame', frame, arrivedMs, bytes}              its arrays are transferred
+ *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
  */
-import {Backoff} from './backoff.js';
-import {connect, decodeFrame} from './protocol/weft.js';
+import {backoff, WeftClient} from './protocol/weft.js';
 
-const kBeatMs = 5000;       // between two pings
-const kSilenceMs = 12000;   // no answer for so long: the connection is dead, whatever the socket thinks
-const kListMs = 4000;
+const kBeatMs = 5000;  // between two pings
+const kListMs = 4000;  // longest wait for the list of scenes
 
-const now = () => performance.timeOrigin + performance.now();
+/** The platform's socket, counting what comes. */
+class CountingSocket extends WebSocket {
+  static bytes = 0;
+  constructor(...address) {
+    super(...address);
+    this.addEventListener('message', ({data}) => (CountingSocket.bytes += data.byteLength ?? data.length));
+  }
+}
 
-const backoff = new Backoff();
 let server = null;
 let scene = null;
-let connection = null;
-let attempt = 0;       // counts openings; whatever belongs to an older one is ignored
-let retryTimer = null;
-let beatTimer = null;
+let client = null;       // whatever an older one says is ignored
+let waiting = null;      // timer of a wait before the list of scenes is asked for again
+let waits = false;       // between attempts, so that 'retry' means something
+let taken = () => {};
 
 self.addEventListener('message', ({data}) => {
   switch (data.kind) {
     case 'open':
       ({server, scene} = data);
-      backoff.reset();
       open();
       break;
-    case 'remember':
-      scene = data.scene;
-      break;
     case 'retry':
-      if (retryTimer !== null) open();
+      if (waits) open();
       break;
     case 'request':
       request(data.key, data.message);
       break;
+    case 'taken':
+      taken();
+      break;
   }
 });
 
-/** The scenes' names, or null when they cannot be had: another origin may not let a page read them. */
+async function open(attempt = 0) {
+  clearTimeout(waiting);
+  client?.close();
+  const mine = (client = new WeftClient(`${server}/v1/scenes/${encodeURIComponent(scene ?? '')}`, {
+    WebSocket: CountingSocket,
+    client: 'weft page',
+    reconnect: true,
+    onmessage: (message) => mine === client && self.postMessage({kind: 'message', message}),
+    onframe: (frame) => mine === client && passOn(frame),
+    onstate: (state, why) => mine === client && follow(mine, state, why),
+  }));
+  waits = false;
+  tell('connecting');
+  if (scene === null) return chooseFirst(mine, attempt);
+  mine.open().catch(() => {});  // fails only by close(), which is ours
+}
+
+/** Asks for the list of scenes and opens the first; as long as there is no answer, again and again. */
+async function chooseFirst(mine, attempt) {
+  const scenes = await listScenes();
+  if (mine !== client) return;
+  if (scenes?.length) {
+    scene = scenes[0].name;
+    open();
+  } else {
+    const delay = backoff(attempt);
+    lost(delay, `No list of scenes from ${new URL(server).host}.`);
+    waiting = setTimeout(open, delay, attempt + 1);
+  }
+}
+
+/** The scenes, or null when they cannot be had: no server, or one of another origin that lets no other page read them. */
 async function listScenes() {
   try {
-    const address = `${server.replace(/^ws/, 'http')}/v1/scenes`;
-    const answer = await fetch(address, {signal: AbortSignal.timeout(kListMs)});
+    const answer = await fetch(`${server.replace(/^ws/, 'http')}/v1/scenes`, {signal: AbortSignal.timeout(kListMs)});
     return answer.ok ? (await answer.json()).scenes : null;
   } catch {
     return null;
   }
 }
 
-async function open() {
-  clearTimeout(retryTimer);
-  retryTimer = null;
-  const mine = ++attempt;
-  tell('connecting');
-  let reached = false;
-  try {
-    if (scene === null) {
-      const scenes = await listScenes();
-      if (mine !== attempt) return;
-      if (!scenes?.length) throw new Error('list');
-      scene = scenes[0].name;
-    }
-    const opened = await connect(`${server}/v1/scenes/${encodeURIComponent(scene)}`, {
-      onMessage: (message) => mine === attempt && self.postMessage({kind: 'message', message}),
-      onFrame: (frame, bytes) => mine === attempt && passOn(frame, bytes),
-      onClose: (event) => mine === attempt && reached && lost(reasonOf(event)),
-    });
-    if (mine !== attempt) return opened.close();
-    connection = opened;
-    reached = true;
-    backoff.reset();
+async function follow(mine, state, {code, error, delay}) {
+  if (state === 'open') {
+    waits = false;
     tell('open');
     beat(mine);
-  } catch {
-    if (mine === attempt) await failed(mine);
-  }
-}
-
-/** A connection did not come about: for good, when the server answers but has no such scene. */
-async function failed(mine) {
-  const scenes = await listScenes();
-  if (mine !== attempt) return;
-  if (scenes && scene !== null && !scenes.some(({name}) => name === scene)) {
+  } else if (state === 'waiting' && error) {
+    lost(delay, `No answer from ${new URL(server).host}.`);
+    // A socket does not say why it was refused; the list does.
+    const scenes = await listScenes();
+    if (mine !== client || mine.connected || !scenes || scenes.some(({name}) => name === scene)) return;
+    mine.close();
+    waits = false;
     tell('refused', {reason: `This server has no scene “${scene}”. Choose one from the list.`, scenes});
-  } else {
-    lost(`No answer from ${new URL(server).host}.`);
+  } else if (state === 'waiting') {
+    lost(delay, code === 1001 ? 'The server is stopping.' : 'The connection was lost.');
   }
 }
 
-function lost(reason) {
-  attempt += 1;
-  clearTimeout(beatTimer);
-  connection?.close();
-  connection = null;
-  const retryMs = backoff.next();
-  retryTimer = setTimeout(open, retryMs);
+function lost(retryMs, reason) {
+  waits = true;
+  taken();
   tell('lost', {reason, retryMs});
-}
-
-function reasonOf({code}) {
-  return code === 1001 ? 'The server is stopping.' : 'The connection was lost.';
 }
 
 /** Asks for an answer every few seconds: measures the round trip, and notices a connection that died without a word. */
 async function beat(mine) {
-  const sent = performance.now();
-  const silence = setTimeout(() => mine === attempt && lost('The server has fallen silent.'), kSilenceMs);
   try {
-    await connection.request({op: 'ping', t: sent});
-    self.postMessage({kind: 'message', message: {op: 'round_trip', ms: performance.now() - sent}});
-  } catch {
-    return;  // closed: onClose tells
-  } finally {
-    clearTimeout(silence);
+    const ms = await mine.ping();
+    if (mine === client) self.postMessage({kind: 'message', message: {op: 'round_trip', ms}});
+  } catch (error) {
+    if (mine !== client || error.code !== 'timeout') return;  // closed: `follow` hears of it
+    lost(0, 'The server has fallen silent.');
+    open();
+    return;
   }
-  if (mine === attempt) beatTimer = setTimeout(() => mine === attempt && beat(mine), kBeatMs);
+  setTimeout(() => mine === client && mine.connected && beat(mine), kBeatMs);
 }
 
 async function request(key, message) {
+  const {op, ...members} = message;
   try {
-    if (!connection) throw Object.assign(new Error('not connected'), {code: 'closed'});
-    self.postMessage({kind: 'reply', key, message: await connection.request(message)});
-  } catch (error) {
-    self.postMessage({kind: 'reply', key, error: {message: error.message, code: error.code ?? 'closed', path: error.path}});
+    const answer = op === 'scene.join' ? await join(members.scene) : await client.send(op, members);
+    self.postMessage({kind: 'reply', key, message: answer});
+  } catch ({message: text, code, path}) {
+    self.postMessage({kind: 'reply', key, error: {message: text, code, path}});
   }
 }
 
-function passOn(frame, bytes) {
+async function join(name) {
+  const answer = await client.joinScene(name);
+  scene = name;
+  return answer;
+}
+
+/** Done when the page has taken the frame: until then newer ones replace each other here instead of queueing up there. */
+function passOn(frame) {
+  const arrivedMs = performance.timeOrigin + performance.now();
   const buffers = frame.cloths.map(({positions}) => positions.buffer);
-  self.postMessage({kind: 'frame', frame, bytes, arrivedMs: now()}, buffers);
+  self.postMessage({kind: 'frame', frame, arrivedMs, bytes: CountingSocket.bytes}, buffers);
+  CountingSocket.bytes = 0;
+  return new Promise((resolve) => (taken = resolve));
 }
 
 function tell(state, more = {}) {
