@@ -3,7 +3,7 @@
 namespace weft {
 
 Grid Grid::with_nodes(int rows, int cols) {
-  return {rows, cols, (cols + kRowAlign - 1) / kRowAlign * kRowAlign};
+  return {rows, cols, (cols + kRowPadding + kRowAlign - 1) / kRowAlign * kRowAlign};
 }
 
 Grid BaseCells::at(int level) const {

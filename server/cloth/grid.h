@@ -8,6 +8,8 @@ namespace weft {
 
 /// Scalars a row is padded to: 16 floats fill one AVX-512 register and one cache line.
 inline constexpr int kRowAlign = 16;
+/// Padding that every row has at least: a row loop may read the second neighbour of the row's last node.
+inline constexpr int kRowPadding = 2;
 
 /// Lowest and highest level a cloth may have: 8 x 8 to 256 x 256 cells on a square cloth.
 inline constexpr int kMinLevel = 3;

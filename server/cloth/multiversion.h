@@ -10,3 +10,11 @@
 #else
 #define WEFT_MULTIVERSION
 #endif
+
+/// Before a loop whose iterations do not depend on one another although its arrays could overlap for all the
+/// compiler can see.
+#if defined(__clang__)
+#define WEFT_INDEPENDENT_ITERATIONS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define WEFT_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
+#endif

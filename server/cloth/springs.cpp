@@ -1,6 +1,7 @@
 #include "cloth/springs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -8,8 +9,6 @@
 
 namespace weft {
 namespace {
-
-bool is_structural(const SpringFamily& family) { return family.rows + std::abs(family.cols) == 1; }
 
 /// Calls visit(d, stiffness) for every spring of the family, d from end j to end i.
 template <class Real, class Visit>
@@ -26,18 +25,27 @@ void for_each_spring(const SpringFamily& family, const VectorField<Real>& positi
   }
 }
 
-/// Stiffness of each kind; a family that is absent has 0.
+/// The six families of Fig. 1's three kinds.
+enum Kind { kAlongU, kAlongV, kFalling, kRising, kBendingU, kBendingV, kKinds };
+
+Kind kind_of(const SpringFamily& family) {
+  if (family.rows == 0) return family.cols == 1 ? kAlongU : kBendingU;
+  if (family.cols == 0) return family.rows == 1 ? kAlongV : kBendingV;
+  return family.cols > 0 ? kFalling : kRising;
+}
+
+/// Stiffness of each kind away from the border; a family that is absent has 0.
 struct LatticeStiffness {
   double along_u = 0, along_v = 0, shear = 0, bending_u = 0, bending_v = 0;
 
   explicit LatticeStiffness(const std::vector<SpringFamily>& families) {
-    for (const SpringFamily& f : families) {
-      if (f.rows == 0 && f.cols == 1) along_u = f.stiffness;
-      if (f.rows == 1 && f.cols == 0) along_v = f.stiffness;
-      if (f.rows == 1 && std::abs(f.cols) == 1) shear = std::max(shear, f.stiffness);
-      if (f.rows == 0 && f.cols == 2) bending_u = f.stiffness;
-      if (f.rows == 2 && f.cols == 0) bending_v = f.stiffness;
-    }
+    std::array<double, kKinds> of_kind{};
+    for (const SpringFamily& family : families) of_kind[kind_of(family)] = family.stiffness;
+    along_u = of_kind[kAlongU];
+    along_v = of_kind[kAlongV];
+    shear = of_kind[kFalling];  // both diagonals are alike
+    bending_u = of_kind[kBendingU];
+    bending_v = of_kind[kBendingV];
   }
 
   /// Sum of 2 k (1 - cos(theta . offset)) over the springs of an infinite lattice, a and b being the cosines
@@ -108,12 +116,39 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
   add(1, -1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy));
   add(0, 2, 2 * hx, material.bending, hy / (2 * hx));
   add(2, 0, 2 * hy, material.bending, hx / (2 * hy));
+
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  columns_.assign(kKinds * stride, Real(0));
+  for (const SpringFamily& family : families_) {
+    Real* row = columns_.data() + kind_of(family) * stride;
+    // Springs that lie in a border row are scaled by the kernel.
+    for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid.cols; ++c) {
+      const bool in_border_column = family.cols == 0 && (c == 0 || c == grid.cols - 1);
+      row[c] = static_cast<Real>(in_border_column ? border_share * family.stiffness : family.stiffness);
+    }
+  }
+  work_.assign(kernels::spring_work_size(grid), Real(0));
 }
 
 template <class Real>
 void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
-  kernels::add_spring_forces(families_, position.grid(), kernels::components(position),
-                             kernels::components(force));
+  if (families_.empty()) return;
+  const Grid& grid = position.grid();
+  kernels::SpringLattice<Real> lattice;
+  const std::array<kernels::SpringColumns<Real>*, kKinds> of_kind{&lattice.along_u,   &lattice.along_v,
+                                                                  &lattice.falling,   &lattice.rising,
+                                                                  &lattice.bending_u, &lattice.bending_v};
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    of_kind[kind]->stiffness = columns_.data() + kind * static_cast<std::size_t>(grid.stride);
+  }
+  for (const SpringFamily& family : families_) {
+    of_kind[kind_of(family)]->rest_length = static_cast<Real>(family.rest_length);
+    lattice.has_shear = lattice.has_shear || kind_of(family) == kFalling;
+    lattice.has_bending = lattice.has_bending || kind_of(family) == kBendingU;
+  }
+  lattice.border_row_share = static_cast<Real>(families_.front().border_share);
+  kernels::add_spring_forces(lattice, grid, kernels::components(position), kernels::components(force),
+                             work_.data());
 }
 
 template <class Real>
@@ -133,7 +168,7 @@ StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& posit
   double sum = 0;
   std::int64_t count = 0;
   for (const SpringFamily& family : families_) {
-    if (!is_structural(family)) continue;
+    if (kind_of(family) != kAlongU && kind_of(family) != kAlongV) continue;
     for_each_spring(family, position, [&](const Vec3& d, double) {
       const double one = std::abs(d.norm() - family.rest_length) / family.rest_length;
       strain.max = std::max(strain.max, one);

@@ -44,6 +44,10 @@ class Springs {
 
  private:
   std::vector<SpringFamily> families_;
+  /// Stiffness by column of each family's first end, a row for each of the six.
+  std::vector<Real, AlignedAllocator<Real>> columns_;
+  /// The force kernel's work rows: no state, but one owner at a time.
+  mutable std::vector<Real, AlignedAllocator<Real>> work_;
 };
 
 extern template class Springs<float>;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "cloth/multiversion.h"
@@ -10,126 +9,202 @@
 namespace weft::kernels {
 namespace {
 
-/// Springs handled at a time: their forces stay in the first-level cache between the passes.
-constexpr int kBlock = 128;
-/// Rows are handled in whole groups of this many scalars where the padding allows it, so that no remainder is
-/// left to a scalar loop.
+/// Rows are handled in whole groups of so many scalars, so that no remainder is left to a scalar loop.
 constexpr int kGroup = 8;
+/// Zeros kept before and after each work row: a neighbour's neighbour is at most two columns away.
+constexpr std::size_t kMargin = kRowAlign;
+/// Work rows: the forces of four families, three components each, then one of zeros and three to be written
+/// in vain.
+constexpr std::size_t kWorkRows = 16;
 
-/// The springs of one family between two rows.
-struct SpringRow {
-  std::size_t first;   ///< index of the first spring's end i
-  std::size_t second;  ///< index of its end j
-  int count;           ///< springs
-  int padded;          ///< springs computed, count <= padded; those beyond count are discarded
-  double share;        ///< of the family's stiffness, of all
-  double end_share;    ///< of that, of the first and of the last spring
+std::size_t work_row_size(const Grid& grid) { return static_cast<std::size_t>(grid.stride) + 2 * kMargin; }
+
+template <class Real>
+struct Force {
+  Real x, y, z;
 };
 
-/// Forces on ends i of springs [begin, begin + count) of a row: Eq. 1's summand.
+/// Force on end i of a spring, d = r_i - r_j: Eq. 1's summand.
 template <class Real>
-[[gnu::always_inline]] inline void spring_block(const Real* __restrict xi, const Real* __restrict yi,
-                                                const Real* __restrict zi, const Real* __restrict xj,
-                                                const Real* __restrict yj, const Real* __restrict zj,
-                                                int count, Real stiffness, Real rest_length,
-                                                Real* __restrict fx, Real* __restrict fy,
-                                                Real* __restrict fz) {
+[[gnu::always_inline]] inline Force<Real> spring(Real dx, Real dy, Real dz, Real stiffness,
+                                                 Real rest_length) {
   // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
   const Real smallest = std::numeric_limits<Real>::min();
+  const Real squared = dx * dx + dy * dy + dz * dz;
+  const Real length = std::sqrt(squared > smallest ? squared : smallest);
+  const Real factor = stiffness * (rest_length - length) / length;
+  return {factor * dx, factor * dy, factor * dz};
+}
+
+/// What one row of springs reads and writes: the row of their first ends, and the two rows below.
+template <class Real>
+struct Rows {
+  Components<const Real> position0, position1, position2;
+  Components<Real> force0, force1, force2;
+  Components<Real> along, second, falling,
+      rising;      ///< work rows: forces of springs whose ends lie in different columns
+  Real row_share;  ///< of the springs within the row
+};
+
+/// Adds the forces of all springs whose first end lies in row 0 of `rows`. Springs down a column give their
+/// force to both ends at once. For the others the second end is in another column, so that their forces wait
+/// in work rows until the first pass is over.
+template <class Real, bool kShear, bool kBending>
+[[gnu::always_inline]] inline void add_row(const SpringLattice<Real>& springs, const Rows<Real>& rows,
+                                           const Real* __restrict stiffness_v,
+                                           const Real* __restrict stiffness_falling,
+                                           const Real* __restrict stiffness_rising,
+                                           const Real* __restrict stiffness_bending_v, int count) {
+  const Real* __restrict x0 = rows.position0.x;
+  const Real* __restrict y0 = rows.position0.y;
+  const Real* __restrict z0 = rows.position0.z;
+  const Real* __restrict x1 = rows.position1.x;
+  const Real* __restrict y1 = rows.position1.y;
+  const Real* __restrict z1 = rows.position1.z;
+  const Real* __restrict x2 = rows.position2.x;
+  const Real* __restrict y2 = rows.position2.y;
+  const Real* __restrict z2 = rows.position2.z;
+  const Components<Real> f0 = rows.force0, f1 = rows.force1, f2 = rows.force2;
+  const Components<Real> along = rows.along, second = rows.second, falling = rows.falling,
+                         rising = rows.rising;
+  const Real* __restrict stiffness_u = springs.along_u.stiffness;
+  const Real* __restrict stiffness_bending_u = springs.bending_u.stiffness;
+  const Real rest_u = springs.along_u.rest_length, rest_v = springs.along_v.rest_length;
+  const Real rest_shear = springs.falling.rest_length;
+  const Real rest_bending_u = springs.bending_u.rest_length, rest_bending_v = springs.bending_v.rest_length;
+  const Real share = rows.row_share;
+
+  WEFT_INDEPENDENT_ITERATIONS
   for (int c = 0; c < count; ++c) {
-    const Real dx = xi[c] - xj[c];
-    const Real dy = yi[c] - yj[c];
-    const Real dz = zi[c] - zj[c];
-    const Real squared = dx * dx + dy * dy + dz * dz;
-    const Real length = std::sqrt(squared > smallest ? squared : smallest);
-    const Real factor = stiffness * (rest_length - length) / length;
-    fx[c] = factor * dx;
-    fy[c] = factor * dy;
-    fz[c] = factor * dz;
+    const Real x = x0[c], y = y0[c], z = z0[c];
+    Force<Real> sum = spring(x - x0[c + 1], y - y0[c + 1], z - z0[c + 1], share * stiffness_u[c], rest_u);
+    along.x[c] = sum.x;
+    along.y[c] = sum.y;
+    along.z[c] = sum.z;
+    const Force<Real> v = spring(x - x1[c], y - y1[c], z - z1[c], stiffness_v[c], rest_v);
+    f1.x[c] -= v.x;
+    f1.y[c] -= v.y;
+    f1.z[c] -= v.z;
+    sum = {sum.x + v.x, sum.y + v.y, sum.z + v.z};
+    if constexpr (kShear) {
+      const Force<Real> a =
+          spring(x - x1[c + 1], y - y1[c + 1], z - z1[c + 1], stiffness_falling[c], rest_shear);
+      falling.x[c] = a.x;
+      falling.y[c] = a.y;
+      falling.z[c] = a.z;
+      const Force<Real> b =
+          spring(x - x1[c - 1], y - y1[c - 1], z - z1[c - 1], stiffness_rising[c], rest_shear);
+      rising.x[c] = b.x;
+      rising.y[c] = b.y;
+      rising.z[c] = b.z;
+      sum = {sum.x + (a.x + b.x), sum.y + (a.y + b.y), sum.z + (a.z + b.z)};
+    }
+    if constexpr (kBending) {
+      const Force<Real> a =
+          spring(x - x0[c + 2], y - y0[c + 2], z - z0[c + 2], share * stiffness_bending_u[c], rest_bending_u);
+      second.x[c] = a.x;
+      second.y[c] = a.y;
+      second.z[c] = a.z;
+      const Force<Real> b = spring(x - x2[c], y - y2[c], z - z2[c], stiffness_bending_v[c], rest_bending_v);
+      f2.x[c] -= b.x;
+      f2.y[c] -= b.y;
+      f2.z[c] -= b.z;
+      sum = {sum.x + (a.x + b.x), sum.y + (a.y + b.y), sum.z + (a.z + b.z)};
+    }
+    f0.x[c] += sum.x;
+    f0.y[c] += sum.y;
+    f0.z[c] += sum.z;
+  }
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = 0; c < count; ++c) {
+    if constexpr (kBending) {
+      f0.x[c] -= along.x[c - 1] + second.x[c - 2];
+      f0.y[c] -= along.y[c - 1] + second.y[c - 2];
+      f0.z[c] -= along.z[c - 1] + second.z[c - 2];
+    } else {
+      f0.x[c] -= along.x[c - 1];
+      f0.y[c] -= along.y[c - 1];
+      f0.z[c] -= along.z[c - 1];
+    }
+    if constexpr (kShear) {
+      f1.x[c] -= falling.x[c - 1] + rising.x[c + 1];
+      f1.y[c] -= falling.y[c - 1] + rising.y[c + 1];
+      f1.z[c] -= falling.z[c - 1] + rising.z[c + 1];
+    }
   }
 }
 
-template <class Real>
-[[gnu::always_inline]] inline void add_block(Real* __restrict target, const Real* __restrict block,
-                                             int count) {
-  for (int c = 0; c < count; ++c) target[c] += block[c];
+template <class T>
+[[gnu::always_inline]] inline Components<T> offset(const Components<T>& field, std::size_t by) {
+  return {field.x + by, field.y + by, field.z + by};
 }
 
-template <class Real>
-[[gnu::always_inline]] inline void subtract_block(Real* __restrict target, const Real* __restrict block,
-                                                  int count) {
-  for (int c = 0; c < count; ++c) target[c] -= block[c];
-}
-
-template <class Real>
-[[gnu::always_inline]] inline void add_row(const SpringFamily& family, const SpringRow& row,
-                                           const Components<const Real>& position,
-                                           const Components<Real>& force) {
-  alignas(64) Real fx[kBlock];
-  alignas(64) Real fy[kBlock];
-  alignas(64) Real fz[kBlock];
-  const Real stiffness = static_cast<Real>(family.stiffness * row.share);
-  const Real rest_length = static_cast<Real>(family.rest_length);
-  const Real end_share = static_cast<Real>(row.end_share);
-  for (int begin = 0; begin < row.padded; begin += kBlock) {
-    const int count = std::min(kBlock, row.padded - begin);
-    const std::size_t i = row.first + static_cast<std::size_t>(begin);
-    const std::size_t j = row.second + static_cast<std::size_t>(begin);
-    spring_block(position.x + i, position.y + i, position.z + i, position.x + j, position.y + j,
-                 position.z + j, count, stiffness, rest_length, fx, fy, fz);
-    if (begin == 0) {
-      fx[0] *= end_share;
-      fy[0] *= end_share;
-      fz[0] *= end_share;
-    }
-    const int last = row.count - 1 - begin;
-    if (last >= 0 && last < count) {
-      fx[last] *= end_share;
-      fy[last] *= end_share;
-      fz[last] *= end_share;
-    }
-    for (int c = std::max(0, last + 1); c < count; ++c) fx[c] = fy[c] = fz[c] = Real(0);
-    // One pass after another: within a row both ends lie in the same array.
-    add_block(force.x + i, fx, count);
-    add_block(force.y + i, fy, count);
-    add_block(force.z + i, fz, count);
-    subtract_block(force.x + j, fx, count);
-    subtract_block(force.y + j, fy, count);
-    subtract_block(force.z + j, fz, count);
-  }
-}
-
-template <class Real>
-[[gnu::always_inline]] inline void add_all(std::span<const SpringFamily> families, const Grid& grid,
-                                           const Components<const Real>& position,
-                                           const Components<Real>& force) {
-  // Row by row, all families of a row together, so that a row is fetched once.
+template <class Real, bool kShear, bool kBending>
+[[gnu::always_inline]] inline void add_all_rows(const SpringLattice<Real>& springs, const Grid& grid,
+                                                const Components<const Real>& position,
+                                                const Components<Real>& force, Real* work) {
+  const std::size_t work_row = work_row_size(grid);
+  const auto work_field = [&](std::size_t first) -> Components<Real> {
+    Real* row = work + kMargin + first * work_row;
+    return {row, row + work_row, row + 2 * work_row};
+  };
+  Rows<Real> rows{};
+  rows.along = work_field(0);
+  rows.second = work_field(3);
+  rows.falling = work_field(6);
+  rows.rising = work_field(9);
+  // Below the last row there are zeros: springs of no stiffness to nodes at the origin, whose forces go
+  // nowhere.
+  const Components<Real> nowhere = work_field(12);
+  const Real* zeros = work + kMargin + 15 * work_row;
+  const int count = std::min((grid.cols + kGroup - 1) / kGroup * kGroup, grid.stride - kRowPadding);
   for (int r = 0; r < grid.rows; ++r) {
-    for (const SpringFamily& family : families) {
-      if (r + family.rows >= grid.rows) continue;
-      SpringRow row{};
-      row.first = grid.index(r, std::max(0, -family.cols));
-      row.second = grid.index(r + family.rows, std::max(0, family.cols));
-      row.count = grid.cols - std::abs(family.cols);
-      if (row.count <= 0) continue;
-      row.padded = std::min((row.count + kGroup - 1) / kGroup * kGroup, grid.stride - std::abs(family.cols));
-      row.share = family.rows == 0 && (r == 0 || r == grid.rows - 1) ? family.border_share : 1.0;
-      row.end_share = family.cols == 0 ? family.border_share : 1.0;
-      add_row(family, row, position, force);
-    }
+    const bool has_next = r + 1 < grid.rows, has_second = r + 2 < grid.rows;
+    rows.position0 = offset(position, grid.index(r, 0));
+    rows.force0 = offset(force, grid.index(r, 0));
+    rows.position1 =
+        has_next ? offset(position, grid.index(r + 1, 0)) : Components<const Real>{zeros, zeros, zeros};
+    rows.force1 = has_next ? offset(force, grid.index(r + 1, 0)) : nowhere;
+    rows.position2 =
+        has_second ? offset(position, grid.index(r + 2, 0)) : Components<const Real>{zeros, zeros, zeros};
+    rows.force2 = has_second ? offset(force, grid.index(r + 2, 0)) : nowhere;
+    rows.row_share = r == 0 || !has_next ? springs.border_row_share : Real(1);
+    add_row<Real, kShear, kBending>(springs, rows, has_next ? springs.along_v.stiffness : zeros,
+                                    has_next ? springs.falling.stiffness : zeros,
+                                    has_next ? springs.rising.stiffness : zeros,
+                                    has_second ? springs.bending_v.stiffness : zeros, count);
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid,
+                                           const Components<const Real>& position,
+                                           const Components<Real>& force, Real* work) {
+  if (springs.has_shear && springs.has_bending) {
+    add_all_rows<Real, true, true>(springs, grid, position, force, work);
+  } else if (springs.has_shear) {
+    add_all_rows<Real, true, false>(springs, grid, position, force, work);
+  } else if (springs.has_bending) {
+    add_all_rows<Real, false, true>(springs, grid, position, force, work);
+  } else {
+    add_all_rows<Real, false, false>(springs, grid, position, force, work);
   }
 }
 
 }  // namespace
 
-WEFT_MULTIVERSION void add_spring_forces(std::span<const SpringFamily> families, const Grid& grid,
-                                         Components<const float> position, Components<float> force) {
-  add_all<float>(families, grid, position, force);
+std::size_t spring_work_size(const Grid& grid) { return kWorkRows * work_row_size(grid); }
+
+WEFT_MULTIVERSION void add_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                                         Components<const float> position, Components<float> force,
+                                         float* work) {
+  add_all<float>(springs, grid, position, force, work);
 }
 
-WEFT_MULTIVERSION void add_spring_forces(std::span<const SpringFamily> families, const Grid& grid,
-                                         Components<const double> position, Components<double> force) {
-  add_all<double>(families, grid, position, force);
+WEFT_MULTIVERSION void add_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                                         Components<const double> position, Components<double> force,
+                                         double* work) {
+  add_all<double>(springs, grid, position, force, work);
 }
 
 }  // namespace weft::kernels

@@ -1,16 +1,34 @@
 #pragma once
-#include <span>
-
 #include "cloth/kernels/components.h"
-#include "cloth/spring_family.h"
 
 namespace weft::kernels {
 
-/// Adds Eq. 1's force of every spring of every family to both its ends, N. Positions and forces lie on
-/// `grid`.
-void add_spring_forces(std::span<const SpringFamily> families, const Grid& grid,
-                       Components<const float> position, Components<float> force);
-void add_spring_forces(std::span<const SpringFamily> families, const Grid& grid,
-                       Components<const double> position, Components<double> force);
+/// Springs from the nodes of a row to a neighbour, one kind in one direction.
+template <class Real>
+struct SpringColumns {
+  const Real* stiffness =
+      nullptr;           ///< N/m by column of the first end, one row of the grid; 0 where there is no spring
+  Real rest_length = 0;  ///< m
+};
+
+/// All springs of a sheet, as add_spring_forces reads them.
+template <class Real>
+struct SpringLattice {
+  SpringColumns<Real> along_u, along_v;      ///< structural: to the next column, to the next row
+  SpringColumns<Real> falling, rising;       ///< shear: to the next row's next column, to its previous one
+  SpringColumns<Real> bending_u, bending_v;  ///< to the second column, to the second row
+  Real border_row_share = 1;  ///< of the stiffness, for springs that lie in the first or last row
+  bool has_shear = false, has_bending = false;
+};
+
+/// Scalars of work space that add_spring_forces needs; all zero before the first call, the kernel keeps what
+/// must stay so.
+std::size_t spring_work_size(const Grid& grid);
+
+/// Adds Eq. 1's force of every spring to both its ends, N. Positions and forces lie on `grid`.
+void add_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                       Components<const float> position, Components<float> force, float* work);
+void add_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                       Components<const double> position, Components<double> force, double* work);
 
 }  // namespace weft::kernels
