@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/mesh_writer.h"
+#include "net/client.h"
+#include "protocol/frame.h"
+#include "protocol/message.h"
+
+namespace weft::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+using nlohmann::json;
+
+constexpr int kFailed = 1;
+constexpr auto kConnectTime = std::chrono::seconds(5);
+/// How often the loop looks whether it was interrupted.
+constexpr auto kPoll = std::chrono::milliseconds(200);
+
+struct ClientOptions {
+  std::string url;
+  std::string scene;
+  std::optional<double> distance;
+  std::vector<double> eye, wind, ball, velocity;
+  int frames = 0;
+  double seconds = 0;
+  std::vector<std::string> outputs;
+  std::string script;
+  bool quiet = false, health = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// A message of the script, and when it is due after the start.
+struct Timed {
+  double at = 0;  ///< s
+  json message;
+};
+
+std::vector<Timed> read_script(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) throw std::runtime_error(path + ": cannot be read");
+  std::vector<Timed> script;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    Timed timed{0, json::parse(line, nullptr, false)};
+    const auto at = timed.message.is_object() ? timed.message.find("at") : timed.message.end();
+    if (at == timed.message.end() || !at->is_number() || !timed.message.contains("op")) {
+      throw std::runtime_error(path + ":" + std::to_string(number) +
+                               ": not a message like {\"at\": 0.5, \"op\": \"camera\", \"distance\": 2}");
+    }
+    timed.at = at->get<double>();
+    timed.message.erase("at");
+    script.push_back(std::move(timed));
+  }
+  std::stable_sort(script.begin(), script.end(), [](const Timed& a, const Timed& b) { return a.at < b.at; });
+  return script;
+}
+
+protocol::Vector vector_of(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
+
+/// A conversation with one server, from connecting to the last frame wanted.
+class Conversation {
+ public:
+  Conversation(const ClientOptions& options, const net::Url& url)
+      : options_(options),
+        script_(options.script.empty() ? std::vector<Timed>{} : read_script(options.script)),
+        client_(url, kConnectTime) {}
+
+  int run() {
+    start_ = Clock::now();
+    // Frames come only as fast as they are taken in here.
+    command(protocol::Hello{"weft client", {"flow.ack"}, 4});
+    if (options_.distance) command(protocol::Camera{options_.distance, std::nullopt});
+    if (!options_.eye.empty()) command(protocol::Camera{std::nullopt, vector_of(options_.eye)});
+    if (!options_.wind.empty()) command(protocol::WindSet{vector_of(options_.wind), options_.wind[3]});
+    if (!options_.ball.empty()) {
+      command(protocol::BallAdd{vector_of(options_.ball), options_.ball[3], {}, false, 1});
+      if (!options_.velocity.empty()) throws_when_added_ = last_id_;
+    }
+    while (!finished()) {
+      send_due();
+      if (auto message = client_.receive(next_event())) take(*message);
+    }
+    client_.close();
+    for (auto& [cloth, writers] : writers_) {
+      for (auto& writer : writers) writer->finish();
+    }
+    return refused_ ? kFailed : 0;
+  }
+
+ private:
+  double elapsed() const { return Seconds(Clock::now() - start_).count(); }
+
+  bool finished() const {
+    return interrupted || (options_.frames > 0 && frames_ >= options_.frames) ||
+           (options_.seconds > 0 && elapsed() >= options_.seconds);
+  }
+
+  Clock::time_point next_event() const {
+    auto until = Clock::now() + kPoll;
+    const auto at = [&](double seconds) {
+      return start_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+    };
+    if (options_.seconds > 0) until = std::min(until, at(options_.seconds));
+    if (sent_ < script_.size()) until = std::min(until, at(script_[sent_].at));
+    return until;
+  }
+
+  void send_due() {
+    for (; sent_ < script_.size() && script_[sent_].at <= elapsed(); ++sent_) {
+      json& message = script_[sent_].message;
+      // With an id it is answered, so that a refusal is noticed and an agreement printed.
+      if (!message.contains("id")) message["id"] = ++last_id_;
+      client_.send(message.dump());
+    }
+  }
+
+  void command(const protocol::Command& command) { client_.send(protocol::to_text({++last_id_, command})); }
+
+  void take(const net::Client::Message& message) {
+    if (message.binary) {
+      take_frame(message.bytes);
+    } else {
+      take_control(message.text());
+    }
+  }
+
+  void take_control(std::string_view text) {
+    const json message = json::parse(text);
+    const std::string op = message.at("op");
+    if (op == "scene") enter(message);
+    if (op == "ok" && message.at("re") == throws_when_added_) throw_ball(message.at("ball"));
+    if (op == "error") {
+      refused_ = true;
+      std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+    } else if (op != "stats" && op != "welcome" && !options_.quiet) {
+      std::printf("%.*s\n", static_cast<int>(text.size()), text.data());
+    }
+  }
+
+  void enter(const json& scene) {
+    cloths_.clear();
+    for (const json& cloth : scene.at("cloths")) cloths_.push_back(cloth.at("name"));
+    const bool waits_for_its_ball = throws_when_added_ != 0;
+    if (options_.velocity.empty() || waits_for_its_ball || thrown_) return;
+    if (scene.at("balls").empty())
+      throw std::runtime_error("the scene has no ball to throw: add one with --ball");
+    throw_ball(scene.at("balls").at(0).at("ball"));
+  }
+
+  void throw_ball(std::uint32_t ball) {
+    thrown_ = true;
+    command(protocol::BallThrow{ball, vector_of(options_.velocity)});
+  }
+
+  void take_frame(const std::vector<std::uint8_t>& bytes) {
+    protocol::Frame frame;
+    std::string error;
+    if (!protocol::decode_frame(bytes, frame, error)) throw std::runtime_error("a malformed frame: " + error);
+    client_.send(protocol::to_text({std::nullopt, protocol::Ack{frame.stamp.frame}}));
+    for (const protocol::ClothRecord& cloth : frame.cloths) write(cloth, frame.stamp);
+    if (!options_.quiet) print(frame, bytes.size());
+    ++frames_;
+  }
+
+  static void print(const protocol::Frame& frame, std::size_t bytes) {
+    std::string levels, nodes;
+    for (const protocol::ClothRecord& cloth : frame.cloths) {
+      const char* comma = levels.empty() ? "" : ",";
+      levels += comma + std::to_string(cloth.level);
+      nodes += comma + std::to_string(cloth.rows * cloth.cols);
+    }
+    std::printf("frame %u  time %.4f s  level %s  nodes %s  bytes %zu\n", frame.stamp.frame, frame.stamp.time,
+                levels.c_str(), nodes.c_str(), bytes);
+  }
+
+  void write(const protocol::ClothRecord& cloth, const protocol::FrameStamp& stamp) {
+    if (options_.outputs.empty()) return;
+    auto& writers = writers_[cloth.cloth];
+    if (writers.empty()) {
+      for (const std::string& path : options_.outputs) {
+        writers.push_back(MeshWriter::open(
+            cloths_.size() > 1 ? MeshWriter::path_for_cloth(path, cloths_.at(cloth.cloth)) : path));
+      }
+    }
+    const MeshFrame mesh{
+        static_cast<int>(stamp.frame), stamp.time, cloth.rows, cloth.cols, cloth.positions, {}};
+    for (auto& writer : writers) writer->write(mesh);
+  }
+
+  const ClientOptions& options_;
+  std::vector<Timed> script_;
+  net::Client client_;
+  Clock::time_point start_;
+  std::size_t sent_ = 0;  ///< of the script
+  std::int64_t last_id_ = 0;
+  std::int64_t throws_when_added_ = 0;  ///< id of the ball.add whose ball is to be thrown
+  bool thrown_ = false, refused_ = false;
+  int frames_ = 0;
+  std::vector<std::string> cloths_;
+  std::map<std::uint32_t, std::vector<std::unique_ptr<MeshWriter>>> writers_;
+};
+
+int check_health(net::Url url) {
+  url.target = "/healthz";
+  const net::HttpReply reply = net::http_get(url, kConnectTime);
+  std::printf("%u %s\n", reply.status, reply.body.c_str());
+  return reply.status == 200 && reply.body == "ok" ? 0 : kFailed;
+}
+
+int client(const ClientOptions& options) {
+  net::Url url = net::Url::parse(options.url);
+  if (options.health) return check_health(url);
+  if (url.target == "/") url.target = "/v1/scenes/" + options.scene;
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  return Conversation(options, url).run();
+}
+
+}  // namespace
+
+void add_client(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ClientOptions>();
+  CLI::App* command =
+      app.add_subcommand("client", "Views and commands a scene of a running server, from a script");
+  command->add_option("URL", options->url, "ws://HOST:PORT/v1/scenes/NAME, or http://HOST:PORT/ with --scene")
+      ->required();
+  command->add_option("--scene", options->scene, "Scene to join if the URL names none")->default_val("flag");
+  auto* camera =
+      command->add_option("--camera", options->distance, "The viewer's distance from every cloth, m");
+  command->add_option("--eye", options->eye, "Where the viewer's eye is: X,Y,Z, m")
+      ->delimiter(',')
+      ->expected(3)
+      ->excludes(camera);
+  command->add_option("--wind", options->wind, "DX,DY,DZ,SPEED sets the wind, m/s")
+      ->delimiter(',')
+      ->expected(4);
+  command->add_option("--ball", options->ball, "X,Y,Z,RADIUS adds a ball, m")->delimiter(',')->expected(4);
+  command
+      ->add_option("--throw", options->velocity, "VX,VY,VZ throws that ball, or else the scene's first, m/s")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--frames", options->frames, "Ends after so many frames (default: when interrupted)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seconds", options->seconds, "Ends after this time, s")->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--out", options->outputs,
+          "Meshes as they come, by extension: .obj (one file a frame), .pc2, .csv, .glb; may be given "
+          "several times")
+      ->allow_extra_args(false);
+  command->add_option("--script", options->script,
+                      "Messages to send, one a line: a message of the protocol with \"at\", its time in s");
+  command->add_flag("--quiet", options->quiet, "Prints errors only");
+  command->add_flag("--health", options->health, "Only asks whether the server is well (exit code 0: yes)");
+  command->callback([options, &exit_code] { exit_code = client(*options); });
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,110 @@
+#include "host/connection.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::host {
+
+using nlohmann::json;
+using protocol::Request;
+
+Connection::Connection(Host& host, SceneRunner& scene, std::string_view server_version)
+    : host_(host),
+      scene_(&scene),
+      rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()) {
+  send(protocol::welcome_text(server_version, host.limits()));
+  visit_ = viewer_->enter();
+  scene_->join(viewer_, visit_);
+}
+
+Connection::~Connection() {
+  scene_->leave(viewer_, visit_);
+  scene_->give_back();
+}
+
+bool Connection::receive(std::string_view text, TimePoint now) {
+  auto parsed = protocol::parse_request(text, host_.limits());
+  const Request* request = std::get_if<Request>(&parsed);
+  // An acknowledgement of a frame that was sent is as frequent as the frames are; losing it would stop them.
+  if (const auto* ack = request ? std::get_if<protocol::Ack>(&request->command) : nullptr) {
+    if (viewer_->acknowledge(ack->frame)) {
+      ok(*request, json::object());
+      return true;
+    }
+  }
+  if (!rate_.allow(now)) {
+    protocol::Error error{std::nullopt, "rate", "",
+                          "more than " + std::to_string(host_.limits().messages_per_second) +
+                              " messages in a second; this one was dropped"};
+    error.re = request ? request->id : std::get<protocol::Error>(parsed).re;
+    send(protocol::error_text(error));
+    return false;
+  }
+  if (request) {
+    std::visit([&](const auto& command) { answer(*request, command); }, request->command);
+  } else {
+    send(protocol::error_text(std::get<protocol::Error>(parsed)));
+  }
+  return true;
+}
+
+void Connection::answer(const Request& request, const protocol::Hello& hello) {
+  json common = json::array();
+  for (const char* known : protocol::kCapabilities) {
+    if (std::find(hello.caps.begin(), hello.caps.end(), known) != hello.caps.end()) common.push_back(known);
+  }
+  if (!common.empty()) viewer_->enable_acks(hello.window);
+  ok(request, {{"caps", common}});
+}
+
+void Connection::answer(const Request& request, const protocol::SceneList&) {
+  ok(request, {{"scenes", host_.list()}});
+}
+
+void Connection::answer(const Request& request, const protocol::SceneJoin& join) {
+  SceneRunner* next = host_.find(join.scene);
+  if (!next) {
+    return refuse(request, "not_found", "/scene", "there is no scene named \"" + join.scene + "\"");
+  }
+  // Its own scene again: it keeps its place.
+  if (next != scene_ && !next->reserve()) {
+    return refuse(request, "limit", "/scene",
+                  "scene \"" + join.scene + "\" has " + std::to_string(host_.limits().viewers) +
+                      " viewers, the most allowed");
+  }
+  scene_->leave(viewer_, visit_);
+  if (next != scene_) scene_->give_back();
+  scene_ = next;
+  visit_ = viewer_->enter();
+  ok(request, json::object());
+  scene_->join(viewer_, visit_);
+}
+
+/// One that acknowledges nothing: harmless, for example of the scene before.
+void Connection::answer(const Request& request, const protocol::Ack&) { ok(request, json::object()); }
+
+void Connection::answer(const Request& request, const protocol::Ping& ping) {
+  send(protocol::pong_text(request.id, ping.t, scene_->frame(), scene_->time()));
+}
+
+template <class Command>
+void Connection::answer(const Request& request, const Command& command) {
+  if (!scene_->submit(viewer_, visit_, {request.id, SceneCommand(command)})) {
+    refuse(request, "limit", "",
+           std::to_string(SceneRunner::kMaxWaiting) + " commands wait for the scene's next step already");
+  }
+}
+
+void Connection::ok(const Request& request, const json& extra) {
+  if (request.id) send(protocol::ok_text(*request.id, scene_->frame(), extra));
+}
+
+void Connection::refuse(const Request& request, const char* code, const char* path, std::string message) {
+  send(protocol::error_text({request.id, code, path, std::move(message)}));
+}
+
+void Connection::send(std::string text) {
+  viewer_->send(std::make_shared<const std::string>(std::move(text)));
+}
+
+}  // namespace weft::host

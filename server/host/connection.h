@@ -1,0 +1,52 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <string_view>
+
+#include "host/host.h"
+#include "host/rate_limiter.h"
+
+namespace weft::host {
+
+/// One client's side of the protocol, whatever carries it: reads its messages, answers those that concern the
+/// connection, passes the others to its scene. One thread uses a connection; its viewer() may be used by any.
+class Connection {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  /// Enters `scene`, in which a place is reserved for it (SceneRunner::reserve): `welcome` is the first thing
+  /// it sends.
+  Connection(Host& host, SceneRunner& scene, std::string_view server_version);
+  /// Leaves the scene.
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  Viewer& viewer() { return *viewer_; }
+  const std::shared_ptr<Viewer>& shared_viewer() const { return viewer_; }
+  const SceneRunner& scene() const { return *scene_; }
+
+  /// One text message of at most Limits::message_bytes. False if it came too fast and was dropped: read the
+  /// next one later.
+  bool receive(std::string_view text, TimePoint now);
+
+ private:
+  void answer(const protocol::Request& request, const protocol::Hello& hello);
+  void answer(const protocol::Request& request, const protocol::SceneList& list);
+  void answer(const protocol::Request& request, const protocol::SceneJoin& join);
+  void answer(const protocol::Request& request, const protocol::Ack& ack);
+  void answer(const protocol::Request& request, const protocol::Ping& ping);
+  template <class Command>
+  void answer(const protocol::Request& request, const Command& command);
+  void ok(const protocol::Request& request, const nlohmann::json& extra);
+  void send(std::string text);
+  void refuse(const protocol::Request& request, const char* code, const char* path, std::string message);
+
+  Host& host_;
+  SceneRunner* scene_;
+  std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
+  std::uint64_t visit_ = 0;
+  RateLimiter rate_;
+};
+
+}  // namespace weft::host

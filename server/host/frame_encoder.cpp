@@ -1,0 +1,107 @@
+#include "host/frame_encoder.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::host {
+namespace {
+
+/// Codec 1 at its worst: 19 bits a value and a width byte for 16 of them, three axes.
+std::size_t largest_record(const Grid& grid) {
+  const std::size_t nodes = static_cast<std::size_t>(grid.nodes());
+  return protocol::kHeaderBytes + 3 * ((nodes * 19 + 7) / 8 + nodes / 16 + 2);
+}
+
+/// The grid as level `level` sees it: every 2^(simulated - level)th node.
+protocol::GridView coarsened(const VectorField<float>& position, int simulated_level, int level) {
+  const Grid& grid = position.grid();
+  const int step = 1 << (simulated_level - level);
+  protocol::GridView view;
+  view.data = {position.x.row(0), position.y.row(0), position.z.row(0)};
+  view.rows = (grid.rows - 1) / step + 1;
+  view.cols = (grid.cols - 1) / step + 1;
+  view.row_step = static_cast<std::ptrdiff_t>(grid.stride) * step;
+  view.col_step = step;
+  return view;
+}
+
+}  // namespace
+
+int finest_sendable_level(const BaseCells& base, std::size_t frame_bytes) {
+  int level = kMaxLevel;
+  while (level > kMinLevel && largest_record(base.at(level)) > frame_bytes) --level;
+  return level;
+}
+
+bool FrameEncoder::capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp) {
+  std::vector<protocol::FrameBall> balls;
+  for (const Ball& ball : simulation.colliders().balls()) {
+    const Eigen::Vector3f position = ball.position.cast<float>();
+    if (!position.allFinite()) return false;
+    balls.push_back({ball.id,
+                     {position.x(), position.y(), position.z()},
+                     static_cast<float>(ball.radius),
+                     ball.motion == BallDescription::Motion::dynamic});
+  }
+  balls_ = std::move(balls);
+  cloths_.resize(simulation.cloths().size());
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    cloths_[i].level = simulation.cloths()[i].level();
+    cloths_[i].position = simulation.cloths()[i].particles().position;
+  }
+  stamp_ = stamp;
+  forget_encodings();
+  return true;
+}
+
+void FrameEncoder::set_flags(std::uint16_t flags) {
+  if (stamp_.flags == flags) return;
+  stamp_.flags = flags;
+  forget_encodings();
+}
+
+std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>& levels) {
+  auto& message = messages_[levels];
+  if (message) return message;
+  auto made = std::make_shared<FrameMessage>();
+  made->frame = stamp_.frame;
+  made->epoch = stamp_.epoch;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    made->records.push_back(cloth_record(i, std::min(levels[i], cloths_[i].level)));
+  }
+  if (!balls_.empty()) made->records.push_back(balls_record());
+  message = std::move(made);
+  return message;
+}
+
+const Record& FrameEncoder::cloth_record(std::size_t cloth, int level) {
+  ShownCloth& shown = cloths_[cloth];
+  Record& record = shown.records[level];
+  if (record) return record;
+  auto bytes = protocol::encode_cloth_record(stamp_, static_cast<std::uint32_t>(cloth), level, shown.level,
+                                             kBits, coarsened(shown.position, shown.level, level));
+  // Last for every viewer or for none: the records of one message differ between viewers only in their
+  // levels.
+  if (balls_.empty() && cloth + 1 == cloths_.size()) protocol::mark_last(bytes, 0);
+  record = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+  ++encodes_;
+  return record;
+}
+
+const Record& FrameEncoder::balls_record() {
+  if (!balls_record_) {
+    auto bytes = protocol::encode_balls_record(stamp_, balls_);
+    protocol::mark_last(bytes, 0);
+    balls_record_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+    ++encodes_;
+  }
+  return balls_record_;
+}
+
+void FrameEncoder::forget_encodings() {
+  for (ShownCloth& cloth : cloths_) cloth.records.clear();
+  balls_record_ = nullptr;
+  messages_.clear();
+}
+
+}  // namespace weft::host

@@ -1,0 +1,55 @@
+#pragma once
+/// The state that viewers are shown, and its encodings: one a cloth and level, whoever asks.
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "cloth/simulation.h"
+#include "host/viewer.h"
+#include "protocol/frame.h"
+
+namespace weft::host {
+
+/// The finest level of a cloth whose record stays within `frame_bytes` whatever the positions.
+int finest_sendable_level(const BaseCells& base, std::size_t frame_bytes);
+
+/// Holds a copy of the last state it was given, so that what is shown survives a step that went wrong. Used
+/// by the scene's thread alone.
+class FrameEncoder {
+ public:
+  /// Bits of quantisation of every record.
+  static constexpr int kBits = 16;
+
+  /// Takes over what is to be shown. False, and nothing taken, if a ball is not at a finite place: such a
+  /// state is never sent. The cloths must be finite (Simulation::healthy).
+  bool capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp);
+  /// The same state under other flags.
+  void set_flags(std::uint16_t flags);
+  const protocol::FrameStamp& stamp() const { return stamp_; }
+
+  /// Level at which `cloth` was simulated.
+  int simulated_level(std::size_t cloth) const { return cloths_[cloth].level; }
+  /// The state with cloth i at levels[i], or at its simulated level if that is coarser.
+  std::shared_ptr<const FrameMessage> message(const std::vector<int>& levels);
+  /// Records encoded so far.
+  std::uint64_t encodes() const { return encodes_; }
+
+ private:
+  struct ShownCloth {
+    int level = 0;
+    VectorField<float> position;
+    std::map<int, Record> records;  ///< by level
+  };
+  const Record& cloth_record(std::size_t cloth, int level);
+  const Record& balls_record();
+  void forget_encodings();
+
+  protocol::FrameStamp stamp_;
+  std::vector<ShownCloth> cloths_;
+  std::vector<protocol::FrameBall> balls_;
+  Record balls_record_;
+  std::map<std::vector<int>, std::shared_ptr<const FrameMessage>> messages_;  ///< by levels
+  std::uint64_t encodes_ = 0;
+};
+
+}  // namespace weft::host

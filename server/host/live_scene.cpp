@@ -1,0 +1,362 @@
+#include "host/live_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "host/scene_messages.h"
+
+namespace weft::host {
+namespace {
+
+using nlohmann::json;
+using protocol::Error;
+
+/// Frames a second that are sent at most; scenes with shorter steps show every nth.
+constexpr double kFrameRate = 60.0;
+
+Vec3 to_vec3(const protocol::Vector& v) { return {v[0], v[1], v[2]}; }
+
+Error refused(const char* code, const char* path, std::string message) {
+  return {std::nullopt, code, path, std::move(message)};
+}
+
+Error no_such_ball(BallId id) {
+  return refused("not_found", "/ball", "/ball is " + std::to_string(id) + "; the scene has no such ball");
+}
+
+bool has_wind(const SimulationDescription& description) {
+  return std::any_of(description.effects.begin(), description.effects.end(),
+                     [](const EffectDescription& effect) {
+                       return std::holds_alternative<PaperWindEffect>(effect) ||
+                              std::holds_alternative<AerodynamicsEffect>(effect);
+                     });
+}
+
+Text shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+}  // namespace
+
+LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
+    : scene_(std::move(scene)), limits_(limits), simulation_(scene_.simulation) {
+  for (const Cloth<float>& cloth : simulation_.cloths()) {
+    finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
+  }
+  frame_stride_ =
+      std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
+  find_centres();
+  encoder_.capture(simulation_, {});
+}
+
+// --- Viewers ---
+
+void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
+  Seat seat;
+  seat.viewer = std::move(viewer);
+  seat.visit = visit;
+  seat.distance = scene_.camera_distance;
+  look(seat);
+  seat.viewer->send(visit, shared(scene_text(scene_, simulation_, {epoch_, paused_}, seat)));
+  if (unstable_) seat.viewer->send(visit, shared(protocol::notice_text("unstable", unstable_message_)));
+  seats_.push_back(std::move(seat));
+  request_levels();
+}
+
+void LiveScene::remove_viewer(const Viewer* viewer, std::uint64_t visit) {
+  std::erase_if(seats_, [&](const Seat& seat) { return seat.viewer.get() == viewer && seat.visit == visit; });
+}
+
+void LiveScene::look(Seat& seat) {
+  const LevelPolicy& policy = scene_.simulation.level_policy;
+  const std::size_t cloths = simulation_.cloths().size();
+  const bool first = seat.policy_levels.empty();
+  seat.distances.resize(cloths);
+  seat.policy_levels.resize(cloths);
+  seat.levels.resize(cloths);
+  for (std::size_t i = 0; i < cloths; ++i) {
+    const double distance = seat.eye ? (*seat.eye - centres_[i]).norm() : seat.distance;
+    const int level = first ? policy.level_at(distance) : policy.level_at(distance, seat.policy_levels[i]);
+    const ClothDescription& cloth = scene_.simulation.cloths[i];
+    seat.distances[i] = distance;
+    seat.policy_levels[i] = level;
+    seat.levels[i] = std::min(std::clamp(level, cloth.min_level, cloth.max_level), finest_sendable_[i]);
+  }
+}
+
+void LiveScene::request_levels() {
+  if (seats_.empty() || unstable_) return;
+  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
+    int finest = 0;
+    for (const Seat& seat : seats_) finest = std::max(finest, seat.levels[i]);
+    Cloth<float>& cloth = simulation_.cloths()[i];
+    cloth.request_level(finest);
+    // A scene that stands still gets finer at once, so that looking closer shows something. It does not get
+    // coarser: what a merge drops would be missing when the viewer comes back.
+    if (!wants_step() && finest > cloth.level() && cloth.apply_pending_level()) state_changed();
+  }
+}
+
+// --- Commands ---
+
+void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+                      const SceneRequest& request) {
+  const auto seat = std::find_if(seats_.begin(), seats_.end(),
+                                 [&](const Seat& s) { return s.viewer == viewer && s.visit == visit; });
+  if (seat == seats_.end()) return;
+  // Most commands are felt in the next step; those that are not say so.
+  takes_effect_ = simulation_.step_count() + 1;
+  Outcome outcome =
+      std::visit([&](const auto& command) { return carry_out(command, *seat); }, request.command);
+  if (auto* error = std::get_if<Error>(&outcome)) {
+    error->re = request.id;
+    viewer->send(shared(protocol::error_text(*error)));
+  } else if (request.id) {
+    viewer->send(shared(protocol::ok_text(*request.id, takes_effect_, std::get<json>(outcome))));
+  }
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
+  if (camera.eye) {
+    seat.eye = to_vec3(*camera.eye);
+  } else {
+    seat.eye.reset();
+    seat.distance = *camera.distance;
+  }
+  look(seat);
+  request_levels();
+  if (!wants_step()) seat.wants_frame = true;
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
+  if (unstable_) return must_reset();
+  if (simulation_.colliders().balls().size() >= static_cast<std::size_t>(limits_.balls)) {
+    return refused("limit", "",
+                   "the scene has " + std::to_string(limits_.balls) + " balls, the most allowed");
+  }
+  BallDescription ball;
+  ball.position = to_vec3(add.position);
+  ball.radius = add.radius;
+  ball.velocity = to_vec3(add.velocity);
+  ball.motion = add.dynamic ? BallDescription::Motion::dynamic : BallDescription::Motion::kinematic;
+  ball.mass = add.mass;
+  const BallId id = simulation_.add_ball(ball);
+  balls_changed("ball.add", id);
+  return json{{"ball", id}};
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.move_ball(move.ball, to_vec3(move.position))) return no_such_ball(move.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.throw_ball(thrown.ball, to_vec3(thrown.velocity))) return no_such_ball(thrown.ball);
+  balls_changed("ball.throw", thrown.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.remove_ball(remove.ball)) return no_such_ball(remove.ball);
+  balls_changed("ball.remove", remove.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
+  if (!has_wind(scene_.simulation)) {
+    return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
+  }
+  if (unstable_) return must_reset();
+  simulation_.set_wind({to_vec3(wind.direction), wind.speed});
+  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Pause&, Seat&) {
+  takes_effect_ = simulation_.step_count();
+  waiting_steps_ = 0;
+  set_paused(true);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Resume&, Seat&) {
+  if (unstable_) return must_reset();
+  waiting_steps_ = 0;
+  set_paused(false);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
+  if (unstable_) return must_reset();
+  if (!paused_) return refused("conflict", "", "step is only for a paused scene");
+  if (waiting_steps_ + step.count > kMaxWaitingSteps) {
+    return refused(
+        "limit", "/count",
+        std::to_string(waiting_steps_) + " steps wait already; at most " + std::to_string(kMaxWaitingSteps));
+  }
+  waiting_steps_ += step.count;
+  // When the scene stands still again, so that a script knows which frame to wait for.
+  takes_effect_ = simulation_.step_count() + static_cast<std::uint64_t>(waiting_steps_);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
+  simulation_.reset();
+  if (unstable_) paused_ = paused_before_;
+  unstable_ = false;
+  waiting_steps_ = 0;
+  ++epoch_;
+  takes_effect_ = 0;
+  find_centres();
+  for (Seat& seat : seats_) {
+    seat.policy_levels.clear();
+    look(seat);
+  }
+  state_changed();
+  tell_event("reset", 0,
+             {{"epoch", epoch_},
+              {"time", 0.0},
+              {"paused", paused_},
+              {"wind", wind_json(simulation_.wind())},
+              {"balls", balls_json(simulation_.colliders())}});
+  request_levels();
+  return json::object();
+}
+
+// --- Steps ---
+
+bool LiveScene::wants_step() const {
+  return !seats_.empty() && !unstable_ && (!paused_ || waiting_steps_ > 0);
+}
+
+void LiveScene::step() {
+  for (Seat& seat : seats_) look(seat);
+  request_levels();
+  try {
+    simulation_.step();
+  } catch (const std::exception& error) {
+    became_unstable(error.what());
+    return;
+  }
+  if (!simulation_.healthy()) {
+    became_unstable("a position or velocity is no longer finite");
+    return;
+  }
+  find_centres();
+  remove_lost_balls();
+  const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
+  state_newer_ = true;
+  if (asked_for || simulation_.step_count() % static_cast<std::uint64_t>(frame_stride_) == 0)
+    frame_due_ = true;
+}
+
+void LiveScene::set_slow(bool slow) {
+  if (slow_ == slow) return;
+  slow_ = slow;
+  tell_all(slow ? protocol::notice_text("slow",
+                                        "steps take longer than their time: the clock runs behind real time")
+                : protocol::notice_text("real_time", "the clock runs in real time again"));
+}
+
+void LiveScene::became_unstable(const std::string& why) {
+  unstable_message_ = "step " + std::to_string(simulation_.step_count()) + " went bad (" + why +
+                      "): the scene stands at its last good frame until it is reset";
+  unstable_ = true;
+  paused_before_ = paused_;
+  waiting_steps_ = 0;
+  set_paused(true);
+  tell_all(protocol::notice_text("unstable", unstable_message_));
+}
+
+void LiveScene::remove_lost_balls() {
+  std::vector<BallId> lost;
+  for (const Ball& ball : simulation_.colliders().balls()) {
+    const bool dynamic = ball.motion == BallDescription::Motion::dynamic;
+    // Written so that a position that is not a number is no reason to remove it: publish() finds it.
+    if (dynamic && ball.position.cwiseAbs().maxCoeff() > kBallRange) lost.push_back(ball.id);
+  }
+  for (const BallId id : lost) {
+    simulation_.remove_ball(id);
+    tell_event("ball.remove", simulation_.step_count(),
+               {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
+  }
+}
+
+void LiveScene::find_centres() {
+  centres_.clear();
+  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) centres_.push_back(simulation_.centre(i));
+}
+
+// --- What viewers are sent ---
+
+void LiveScene::publish(std::uint32_t server_ms) {
+  const bool wanted =
+      std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.wants_frame; });
+  if (!frame_due_ && !wanted) return;
+  if (state_newer_ && !unstable_) {
+    protocol::FrameStamp stamp;
+    stamp.frame = static_cast<std::uint32_t>(simulation_.step_count());
+    stamp.epoch = epoch_;
+    stamp.time = simulation_.time();
+    stamp.server_ms = server_ms;
+    stamp.flags = flags();
+    if (!encoder_.capture(simulation_, stamp)) became_unstable("a ball's position is no longer finite");
+  }
+  state_newer_ = false;
+  encoder_.set_flags(flags());
+  for (Seat& seat : seats_) {
+    if (frame_due_ || seat.wants_frame) seat.viewer->publish(seat.visit, encoder_.message(seat.levels));
+    seat.wants_frame = false;
+  }
+  frame_due_ = false;
+}
+
+void LiveScene::send_stats(double rate) {
+  StatsState state;
+  state.rate = wants_step() ? rate : 0.0;
+  state.viewers = seats_.size();
+  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
+    state.substeps.push_back(simulation_.report(i).substeps);
+    state.levels.push_back(encoder_.simulated_level(i));
+  }
+  for (const Seat& seat : seats_) seat.viewer->send(seat.visit, shared(stats_text(simulation_, state, seat)));
+}
+
+void LiveScene::set_paused(bool paused) {
+  if (paused_ == paused) return;
+  paused_ = paused;
+  frame_due_ = true;  // its flag tells
+  tell_event(paused ? "pause" : "resume", simulation_.step_count(), {{"paused", paused}});
+}
+
+void LiveScene::state_changed() {
+  state_newer_ = true;
+  frame_due_ = true;
+}
+
+void LiveScene::balls_changed(std::string_view kind, BallId id) {
+  if (!wants_step()) state_changed();
+  tell_event(kind, takes_effect_, {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
+}
+
+void LiveScene::tell_all(std::string text) {
+  const Text message = shared(std::move(text));
+  for (const Seat& seat : seats_) seat.viewer->send(seat.visit, message);
+}
+
+void LiveScene::tell_event(std::string_view kind, std::uint64_t frame, const json& what) {
+  tell_all(protocol::event_text(kind, frame, what));
+}
+
+LiveScene::Outcome LiveScene::must_reset() const { return refused("conflict", "", unstable_message_); }
+
+std::uint16_t LiveScene::flags() const {
+  const int bits = (paused_ ? protocol::kFlagPaused : 0) | (slow_ ? protocol::kFlagSlow : 0);
+  return static_cast<std::uint16_t>(bits);
+}
+
+}  // namespace weft::host

@@ -1,0 +1,113 @@
+#pragma once
+/// A scene being shown: its simulation, its viewers and what they command. One thread uses it
+/// (SceneRunner's); no clock and no lock in here.
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cloth/simulation.h"
+#include "host/frame_encoder.h"
+#include "host/seat.h"
+#include "protocol/message.h"
+#include "scene/scene.h"
+
+namespace weft::host {
+
+/// The commands that are the scene's to carry out; the rest is answered by Connection.
+using SceneCommand = std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove,
+                                  protocol::BallThrow, protocol::BallRemove, protocol::WindSet,
+                                  protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
+
+struct SceneRequest {
+  std::optional<std::int64_t> id;
+  SceneCommand command;
+};
+
+class LiveScene {
+ public:
+  /// A dynamic ball farther from the origin than this along an axis has left and is removed, m.
+  static constexpr double kBallRange = 1000.0;
+  /// Steps that may be asked for at once and wait.
+  static constexpr int kMaxWaitingSteps = 600;
+
+  LiveScene(scene::Scene scene, const protocol::Limits& limits);
+
+  /// A viewer came, as `visit` (Viewer::enter): it is sent `scene`, and a frame at the next publish().
+  void add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
+  void remove_viewer(const Viewer* viewer, std::uint64_t visit);
+  /// Carries out one of its commands and answers it. The scene is between two steps.
+  void apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, const SceneRequest& request);
+
+  /// False while nobody looks, while paused (but for the steps asked for) and after a state gone bad.
+  bool wants_step() const;
+  /// One step, at the finest level that any viewer needs.
+  void step();
+  /// Whether the clock runs behind; viewers are told when it changes.
+  void set_slow(bool slow);
+  /// Sends each viewer that needs one the newest frame at its levels. `server_ms` is the server's clock.
+  void publish(std::uint32_t server_ms);
+  /// Sends each viewer its `stats`; `rate` is StepClock's.
+  void send_stats(double rate);
+
+  const Simulation<float>& simulation() const { return simulation_; }
+  const FrameEncoder& encoder() const { return encoder_; }
+  std::uint32_t epoch() const { return epoch_; }
+  bool paused() const { return paused_; }
+  bool slow() const { return slow_; }
+  bool unstable() const { return unstable_; }
+  /// What went wrong, once unstable().
+  const std::string& unstable_message() const { return unstable_message_; }
+  bool empty() const { return seats_.empty(); }
+
+ private:
+  /// The reply's members, or what is wrong with the command.
+  using Outcome = std::variant<nlohmann::json, protocol::Error>;
+
+  // What each command does.
+  Outcome carry_out(const protocol::Camera& camera, Seat& seat);
+  Outcome carry_out(const protocol::BallAdd& add, Seat& seat);
+  Outcome carry_out(const protocol::BallMove& move, Seat& seat);
+  Outcome carry_out(const protocol::BallThrow& thrown, Seat& seat);
+  Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
+  Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
+  Outcome carry_out(const protocol::Pause& pause, Seat& seat);
+  Outcome carry_out(const protocol::Resume& resume, Seat& seat);
+  Outcome carry_out(const protocol::Reset& reset, Seat& seat);
+  Outcome carry_out(const protocol::Step& step, Seat& seat);
+  Outcome must_reset() const;
+
+  void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
+  void request_levels();
+  void find_centres();
+  void set_paused(bool paused);
+  void became_unstable(const std::string& why);
+  void remove_lost_balls();
+  void state_changed();
+  void balls_changed(std::string_view kind, BallId id);
+  void tell_all(std::string text);
+  void tell_event(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
+  std::uint16_t flags() const;
+
+  scene::Scene scene_;
+  protocol::Limits limits_;
+  Simulation<float> simulation_;
+  FrameEncoder encoder_;
+  std::vector<Seat> seats_;
+  std::vector<int> finest_sendable_;  ///< by cloth
+  std::vector<Vec3> centres_;         ///< of the cloths, in the last good state
+  int frame_stride_ = 1;              ///< steps from one frame to the next
+  std::uint32_t epoch_ = 1;
+  std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
+  int waiting_steps_ = 0;           ///< asked for by `step`, not made yet
+  bool paused_ = false;
+  bool paused_before_ = false;  ///< before the state went bad
+  bool unstable_ = false;
+  bool slow_ = false;
+  bool state_newer_ = true;  ///< than the encoder's copy
+  bool frame_due_ = true;    ///< to all viewers
+  std::string unstable_message_;
+};
+
+}  // namespace weft::host

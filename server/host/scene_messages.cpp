@@ -1,0 +1,102 @@
+#include "host/scene_messages.h"
+
+#include <algorithm>
+
+namespace weft::host {
+namespace {
+
+using nlohmann::json;
+
+json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+json cloths_json(const SimulationDescription& description) {
+  json cloths = json::array();
+  for (std::size_t i = 0; i < description.cloths.size(); ++i) {
+    const ClothDescription& cloth = description.cloths[i];
+    cloths.push_back({{"cloth", i},
+                      {"name", cloth.name},
+                      {"size", {cloth.size.x(), cloth.size.y()}},
+                      {"base_cells", {cloth.base_cells.cols, cloth.base_cells.rows}},
+                      {"min_level", cloth.min_level},
+                      {"max_level", cloth.max_level}});
+  }
+  return cloths;
+}
+
+json effects_json(const SimulationDescription& description) {
+  json effects = json::array();
+  for (const EffectDescription& effect : description.effects) {
+    effects.push_back(std::visit([](const auto& e) { return e.kName; }, effect));
+  }
+  return effects;
+}
+
+}  // namespace
+
+json wind_json(const Wind& wind) {
+  return {{"direction", vector_json(wind.direction)}, {"speed", wind.speed}};
+}
+
+json balls_json(const Colliders& colliders) {
+  json balls = json::array();
+  for (const Ball& ball : colliders.balls()) {
+    if (!ball.position.allFinite()) continue;
+    const bool dynamic = ball.motion == BallDescription::Motion::dynamic;
+    balls.push_back({{"ball", ball.id},
+                     {"position", vector_json(ball.position)},
+                     {"radius", ball.radius},
+                     {"motion", dynamic ? "dynamic" : "kinematic"}});
+  }
+  return balls;
+}
+
+std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
+                       const SceneState& state, const Seat& seat) {
+  const SimulationDescription& description = simulation.description();
+  const LevelPolicy& policy = description.level_policy;
+  const json message = {
+      {"op", "scene"},
+      {"name", scene.name},
+      {"title", scene.title},
+      {"f", simulation.step_count()},
+      {"epoch", state.epoch},
+      {"time", simulation.time()},
+      {"dt", description.time_step},
+      {"paused", state.paused},
+      {"effects", effects_json(description)},
+      {"wind", wind_json(simulation.wind())},
+      {"balls", balls_json(simulation.colliders())},
+      {"cloths", cloths_json(description)},
+      {"level_policy",
+       {{"thresholds", policy.thresholds}, {"levels", policy.levels}, {"hysteresis", policy.hysteresis}}},
+      {"camera",
+       {{"distance", scene.camera_distance},
+        {"eye", vector_json(scene.camera_eye)},
+        {"target", vector_json(scene.camera_target)},
+        {"level", seat.levels}}}};
+  return message.dump();
+}
+
+std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat) {
+  json cloths = json::array();
+  for (std::size_t i = 0; i < seat.levels.size(); ++i) {
+    const int level = std::min(seat.levels[i], state.levels[i]);
+    cloths.push_back({{"cloth", i},
+                      {"level", level},
+                      {"simulated_level", state.levels[i]},
+                      {"nodes", simulation.description().cloths[i].base_cells.at(level).nodes()},
+                      {"substeps", state.substeps[i]},
+                      {"distance", seat.distances[i]}});
+  }
+  const json message = {{"op", "stats"},
+                        {"f", simulation.step_count()},
+                        {"time", simulation.time()},
+                        {"step_ms", simulation.profile().total * 1e3},
+                        {"rate", state.rate},
+                        {"viewers", state.viewers},
+                        {"dropped", seat.viewer->dropped()},
+                        {"cloths", std::move(cloths)}};
+  return message.dump();
+}
+
+}  // namespace weft::host

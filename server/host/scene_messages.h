@@ -1,0 +1,32 @@
+#pragma once
+/// The host's own messages of PROTOCOL.md section 3, as JSON.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cloth/simulation.h"
+#include "host/seat.h"
+#include "scene/scene.h"
+
+namespace weft::host {
+
+/// What a scene message tells beside the simulation itself.
+struct SceneState {
+  std::uint32_t epoch = 1;
+  bool paused = false;
+};
+
+nlohmann::json wind_json(const Wind& wind);
+/// Every ball that is at a finite place.
+nlohmann::json balls_json(const Colliders& colliders);
+/// `scene`, as it is sent to `seat`.
+std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
+                       const SceneState& state, const Seat& seat);
+/// `stats`, as it is sent to `seat`. `substeps` and `levels` (simulated ones) are by cloth.
+struct StatsState {
+  double rate = 1.0;
+  std::size_t viewers = 0;
+  std::vector<int> substeps, levels;
+};
+std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat);
+
+}  // namespace weft::host

@@ -1,0 +1,133 @@
+#include "host/scene_runner.h"
+
+#if defined(__SSE__)
+#include <immintrin.h>
+#endif
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kStatsPeriod = std::chrono::milliseconds(500);
+
+/// Numbers too small for full precision become zero on this thread: they slow arithmetic down a hundredfold,
+/// and a cloth at rest is full of them.
+void flush_subnormals() {
+#if defined(__SSE__)
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _mm_setcsr(_mm_getcsr() | 0x0040U);  // denormals are zero
+#endif
+}
+
+std::uint32_t server_ms() {
+  const auto now = Clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+}  // namespace
+
+SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
+    : name_(scene.name),
+      title_(scene.title),
+      cloths_(scene.simulation.cloths.size()),
+      max_viewers_(limits.viewers),
+      time_step_(scene.simulation.time_step),
+      live_(std::move(scene), limits),
+      clock_(time_step_),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+SceneRunner::~SceneRunner() = default;
+
+bool SceneRunner::reserve() {
+  int seated = viewers_;
+  while (seated < max_viewers_) {
+    if (viewers_.compare_exchange_weak(seated, seated + 1)) return true;
+  }
+  return false;
+}
+
+bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, SceneRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.size() >= kMaxWaiting) return false;
+    waiting_.push_back({viewer, visit, std::move(request)});
+  }
+  work_.notify_one();
+  return true;
+}
+
+void SceneRunner::post(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(task));
+  }
+  work_.notify_one();
+}
+
+void SceneRunner::run(const std::stop_token& stop) {
+  pthread_setname_np(pthread_self(), ("weft " + name_).substr(0, 15).c_str());
+  flush_subnormals();
+  while (!stop.stop_requested()) {
+    for (const Task& task : wait_for_work(stop)) carry_out(task);
+    step_if_due();
+    live_.publish(server_ms());
+    send_stats_if_due();
+    frame_ = live_.simulation().step_count();
+    encodes_ = live_.encoder().encodes();
+  }
+}
+
+std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token& stop) {
+  const auto has_work = [this] { return !waiting_.empty(); };
+  std::unique_lock lock(mutex_);
+  if (live_.empty()) {
+    work_.wait(lock, stop, has_work);
+  } else {
+    const auto until = live_.wants_step() && running_ ? std::min(clock_.next(), stats_due_) : stats_due_;
+    work_.wait_until(lock, stop, live_.wants_step() && !running_ ? Clock::now() : until, has_work);
+  }
+  return std::exchange(waiting_, {});
+}
+
+void SceneRunner::carry_out(const Task& task) {
+  if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
+    live_.apply(task.viewer, task.visit, *request);
+  } else if (std::holds_alternative<Join>(task.what)) {
+    if (live_.empty()) stats_due_ = Clock::now();
+    live_.add_viewer(task.viewer, task.visit);
+  } else {
+    live_.remove_viewer(task.viewer.get(), task.visit);
+  }
+}
+
+void SceneRunner::step_if_due() {
+  if (!live_.wants_step()) {
+    running_ = false;
+    return;
+  }
+  if (!running_) clock_.start(Clock::now());
+  running_ = true;
+  if (Clock::now() < clock_.next()) return;
+  live_.step();
+  clock_.stepped(Clock::now());
+  if (clock_.slow() != live_.slow()) {
+    spdlog::warn("scene {}: clock {}", name_,
+                 clock_.slow() ? "runs behind real time" : "is in real time again");
+    live_.set_slow(clock_.slow());
+  }
+  if (live_.unstable()) spdlog::error("scene {}: {}", name_, live_.unstable_message());
+}
+
+void SceneRunner::send_stats_if_due() {
+  const auto now = Clock::now();
+  if (live_.empty() || now < stats_due_) return;
+  live_.send_stats(clock_.rate());
+  stats_due_ = std::max(stats_due_ + kStatsPeriod, now);
+}
+
+}  // namespace weft::host

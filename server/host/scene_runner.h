@@ -1,0 +1,92 @@
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "host/live_scene.h"
+#include "host/step_clock.h"
+
+namespace weft::host {
+
+/// Runs one scene on a thread of its own, in real time. Every method may be called from any thread and
+/// returns at once: what is asked waits for the next step boundary. With no viewers the scene sleeps.
+class SceneRunner {
+ public:
+  /// Requests that may wait for the step boundary.
+  static constexpr std::size_t kMaxWaiting = 1024;
+
+  SceneRunner(scene::Scene scene, const protocol::Limits& limits);
+  ~SceneRunner();
+  SceneRunner(const SceneRunner&) = delete;
+  SceneRunner& operator=(const SceneRunner&) = delete;
+
+  const std::string& name() const { return name_; }
+  const std::string& title() const { return title_; }
+  std::size_t cloths() const { return cloths_; }
+  int viewers() const { return viewers_; }
+  /// Steps since the epoch began.
+  std::uint64_t frame() const { return frame_; }
+  /// Simulated, s.
+  double time() const { return static_cast<double>(frame()) * time_step_; }
+  /// Records encoded since the scene was loaded: one a cloth, level and frame, however many viewers there
+  /// are.
+  std::uint64_t encodes() const { return encodes_; }
+
+  /// Takes one of the scene's places for viewers; false if all are taken.
+  bool reserve();
+  /// Gives a place back.
+  void give_back() { --viewers_; }
+  /// The viewer, for whom there is a place, comes in as `visit`.
+  void join(std::shared_ptr<Viewer> viewer, std::uint64_t visit) { post({std::move(viewer), visit, Join{}}); }
+  /// It leaves. Commands it gave before are still carried out.
+  void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
+    post({std::move(viewer), visit, Leave{}});
+  }
+  /// One command. False if too many wait; it is forgotten.
+  bool submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, SceneRequest request);
+
+ private:
+  struct Join {};
+  struct Leave {};
+  struct Task {
+    std::shared_ptr<Viewer> viewer;
+    std::uint64_t visit;
+    std::variant<Join, Leave, SceneRequest> what;
+  };
+
+  void run(const std::stop_token& stop);
+  std::vector<Task> wait_for_work(const std::stop_token& stop);
+  void carry_out(const Task& task);
+  void step_if_due();
+  void send_stats_if_due();
+  /// Comings and goings are never refused: there are no more of them than connections.
+  void post(Task task);
+
+  const std::string name_, title_;
+  const std::size_t cloths_;
+  const int max_viewers_;
+  const double time_step_;
+  std::atomic<int> viewers_{0};
+  std::atomic<std::uint64_t> frame_{0}, encodes_{0};
+
+  std::mutex mutex_;
+  std::condition_variable_any work_;
+  std::vector<Task> waiting_;  ///< guarded by mutex_
+
+  // The thread's own.
+  LiveScene live_;
+  StepClock clock_;
+  StepClock::TimePoint stats_due_{};
+  bool running_ = false;
+
+  std::jthread thread_;  // last: it uses all of the above
+};
+
+}  // namespace weft::host

@@ -1,0 +1,25 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cloth/level_policy.h"
+#include "cloth/vec3.h"
+#include "host/viewer.h"
+
+namespace weft::host {
+
+/// A viewer's place in a scene: from where it looks, and the level each cloth has for it.
+struct Seat {
+  std::shared_ptr<Viewer> viewer;
+  std::uint64_t visit = 0;
+  double distance = 0;            ///< m, to every cloth, unless there is an eye
+  std::optional<Vec3> eye;        ///< m
+  std::vector<double> distances;  ///< m, to each cloth's centre
+  std::vector<int>
+      policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
+  std::vector<int> levels;  ///< what it is sent
+  bool wants_frame = true;  ///< even if the scene did not change
+};
+
+}  // namespace weft::host

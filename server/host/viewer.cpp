@@ -1,0 +1,102 @@
+#include "host/viewer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::host {
+
+void Viewer::on_wake(std::function<void()> wake) {
+  const std::lock_guard lock(mutex_);
+  wake_ = std::move(wake);
+}
+
+std::optional<Outgoing> Viewer::take() {
+  const std::lock_guard lock(mutex_);
+  if (!texts_.empty()) {
+    Outgoing next{std::move(texts_.front()), nullptr};
+    texts_.pop_front();
+    return next;
+  }
+  if (may_send_frame()) {
+    if (window_ > 0) outstanding_.push_back(newest_->frame);
+    return Outgoing{nullptr, std::exchange(newest_, nullptr)};
+  }
+  idle_ = true;
+  return std::nullopt;
+}
+
+bool Viewer::overflowed() const {
+  const std::lock_guard lock(mutex_);
+  return overflowed_;
+}
+
+void Viewer::send(Text text) {
+  std::unique_lock lock(mutex_);
+  push(std::move(text));
+  wake_if_idle(std::move(lock));
+}
+
+void Viewer::send(std::uint64_t visit, Text text) {
+  std::unique_lock lock(mutex_);
+  if (visit != visit_) return;
+  push(std::move(text));
+  wake_if_idle(std::move(lock));
+}
+
+void Viewer::publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame) {
+  std::unique_lock lock(mutex_);
+  if (visit != visit_) return;
+  if (newest_) ++dropped_;
+  newest_ = std::move(frame);
+  wake_if_idle(std::move(lock));
+}
+
+std::uint64_t Viewer::enter() {
+  const std::lock_guard lock(mutex_);
+  newest_ = nullptr;
+  outstanding_.clear();
+  return ++visit_;
+}
+
+void Viewer::enable_acks(int window) {
+  std::unique_lock lock(mutex_);
+  window_ = window;
+  wake_if_idle(std::move(lock));
+}
+
+bool Viewer::acknowledge(std::uint32_t frame) {
+  std::unique_lock lock(mutex_);
+  // The last one of that number: a paused scene sends one step more than once.
+  const auto found = std::find(outstanding_.rbegin(), outstanding_.rend(), frame);
+  if (found == outstanding_.rend()) return false;
+  outstanding_.erase(outstanding_.begin(), found.base());
+  wake_if_idle(std::move(lock));
+  return true;
+}
+
+std::uint64_t Viewer::dropped() const {
+  const std::lock_guard lock(mutex_);
+  return dropped_;
+}
+
+void Viewer::push(Text text) {
+  if (texts_.size() >= kMaxTexts) {
+    overflowed_ = true;
+  } else {
+    texts_.push_back(std::move(text));
+  }
+}
+
+bool Viewer::may_send_frame() const {
+  return newest_ && (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_));
+}
+
+void Viewer::wake_if_idle(std::unique_lock<std::mutex> lock) {
+  if (!idle_ || !(overflowed_ || !texts_.empty() || may_send_frame())) return;
+  idle_ = false;
+  const auto wake = wake_;
+  lock.unlock();
+  if (wake) wake();
+}
+
+}  // namespace weft::host

@@ -1,0 +1,82 @@
+#pragma once
+/// What waits to be sent to one viewer: its control messages in order, and its newest frame.
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft::host {
+
+/// The bytes of one record, encoded once and shared by all viewers it is sent to.
+using Record = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+/// One binary message: its records one after the other.
+struct FrameMessage {
+  std::uint32_t frame = 0;
+  std::uint32_t epoch = 0;
+  std::vector<Record> records;
+};
+
+using Text = std::shared_ptr<const std::string>;
+
+/// The next message for a viewer: exactly one of the two.
+struct Outgoing {
+  Text text;
+  std::shared_ptr<const FrameMessage> frame;
+};
+
+/// A viewer's outbox. The scene's thread fills it, the network's empties it; every method may be called from
+/// any thread.
+class Viewer {
+ public:
+  /// Control messages that may wait; the viewer does not read when there are more.
+  static constexpr std::size_t kMaxTexts = 256;
+
+  /// `wake` is called, on the filling thread, when there is something to send after take() returned nothing.
+  /// Set it before the first take().
+  void on_wake(std::function<void()> wake);
+  /// The next message: control before frames, a frame only while fewer than the window are unacknowledged.
+  std::optional<Outgoing> take();
+  /// More than kMaxTexts waited; what came after them is lost, so the viewer must be closed.
+  bool overflowed() const;
+
+  /// A control message, whichever scene the viewer is in.
+  void send(Text text);
+  /// A control message of the scene entered as `visit`; dropped when the viewer has left it.
+  void send(std::uint64_t visit, Text text);
+  /// The newest frame of that scene, in place of one that still waits.
+  void publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame);
+
+  /// Begins a stay in a scene and names it: nothing of the scene before is sent any more, nor awaits an
+  /// acknowledgement.
+  std::uint64_t enter();
+  /// Capability flow.ack: at most `window` frames are unacknowledged from now on.
+  void enable_acks(int window);
+  /// The frame and those sent before it have been consumed. False if no such frame was outstanding.
+  bool acknowledge(std::uint32_t frame);
+  /// Frames replaced by newer ones before they could be sent.
+  std::uint64_t dropped() const;
+
+ private:
+  // Both need mutex_.
+  void push(Text text);
+  bool may_send_frame() const;
+  void wake_if_idle(std::unique_lock<std::mutex> lock);
+
+  mutable std::mutex mutex_;
+  std::function<void()> wake_;
+  bool idle_ = false;  ///< take() found nothing and nobody was woken since
+  bool overflowed_ = false;
+  std::deque<Text> texts_;
+  std::shared_ptr<const FrameMessage> newest_;
+  std::uint64_t visit_ = 0;
+  std::uint64_t dropped_ = 0;
+  int window_ = 0;  ///< 0: without flow.ack
+  std::deque<std::uint32_t> outstanding_;
+};
+
+}  // namespace weft::host

@@ -1,0 +1,190 @@
+#include "net/http_session.h"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/dispatch.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/http/span_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <optional>
+
+#include "net/origin.h"
+#include "net/websocket_session.h"
+
+namespace weft::net {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using beast::error_code;
+using boost::asio::ip::tcp;
+
+namespace {
+
+constexpr auto kRequestTime = std::chrono::seconds(10);   // for the whole header, and between requests
+constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
+constexpr std::uint32_t kHeaderBytes = 8192;
+constexpr std::string_view kScenes = "/v1/scenes";
+
+/// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
+/// parameter).
+constexpr const char* kContentPolicy =
+    "default-src 'self'; connect-src 'self' http: https: ws: wss:; img-src 'self' data: blob:; style-src "
+    "'self' 'unsafe-inline'; "
+    "object-src 'none'; base-uri 'none'; frame-ancestors 'self'";
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// What is answered, but for the headers that every answer has.
+struct Answer {
+  http::status status = http::status::ok;
+  std::shared_ptr<const std::string> content;
+  std::string_view media_type = "text/plain; charset=utf-8";
+  std::string etag;
+};
+
+Answer plain(http::status status, std::string text) {
+  return {status, std::make_shared<const std::string>(std::move(text)), "text/plain; charset=utf-8", ""};
+}
+
+}  // namespace
+
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(Context& context, tcp::socket socket)
+      : context_(context), count_(context), stream_(std::move(socket)) {}
+
+  void read() {
+    // A parser reads one message.
+    parser_.emplace();
+    parser_->header_limit(kHeaderBytes);
+    stream_.expires_after(kRequestTime);
+    http::async_read_header(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
+  }
+
+ private:
+  void on_read(error_code error) {
+    if (error == http::error::header_limit) {
+      return write(
+          plain(http::status::request_header_fields_too_large, "the header has more than 8192 bytes\n"),
+          true);
+    }
+    if (error && error.category() == http::make_error_code(http::error::bad_target).category() &&
+        error != http::error::end_of_stream && error != http::error::partial_message) {
+      return write(plain(http::status::bad_request, "not a valid HTTP request\n"), true);
+    }
+    if (error) return end();
+    respond();
+  }
+
+  void respond() {
+    const HttpRequest& request = parser_->get();
+    // A body is of no use to any request here; it is not read, so the connection ends with the answer.
+    const bool last = !request.keep_alive() || !parser_->is_done();
+    const std::string_view target = view(request.target());
+    const std::string_view path = target.substr(0, target.find('?'));
+    if (request.method() != http::verb::get && request.method() != http::verb::head) {
+      return write(plain(http::status::method_not_allowed, "only GET and HEAD\n"), last);
+    }
+    if (path == "/healthz") return write(plain(http::status::ok, "ok"), last);
+    if (path == kScenes || path == "/v1/scenes/") {
+      const nlohmann::json list = {{"scenes", context_.host.list()}};
+      Answer answer = plain(http::status::ok, list.dump());
+      answer.media_type = "application/json";
+      return write(answer, last);
+    }
+    if (path.starts_with("/v1/scenes/")) return open_scene(path.substr(kScenes.size() + 1), last);
+    if (const auto file = context_.files.find(target)) {
+      if (view(request[http::field::if_none_match]) == file->etag) {
+        return write({http::status::not_modified, nullptr, file->media_type, file->etag}, last);
+      }
+      return write({http::status::ok, file->content, file->media_type, file->etag}, last);
+    }
+    const bool page_missing = path == "/" && context_.options.web.empty();
+    write(plain(http::status::not_found,
+                page_missing ? "this server was started without a page\n" : "not found\n"),
+          last);
+  }
+
+  /// The upgrade of GET /v1/scenes/NAME, or why not.
+  void open_scene(std::string_view name, bool last) {
+    const HttpRequest& request = parser_->get();
+    if (!origin_allowed(view(request[http::field::origin]), view(request[http::field::host]),
+                        context_.options.allowed_origins)) {
+      return write(plain(http::status::forbidden, "this page's origin is not allowed (--allow-origin)\n"),
+                   last);
+    }
+    host::SceneRunner* scene = context_.host.find(name);
+    if (!scene) return write(plain(http::status::not_found, "there is no such scene\n"), last);
+    if (!beast::websocket::is_upgrade(request)) {
+      return write(plain(http::status::upgrade_required, "a scene is a WebSocket\n"), last);
+    }
+    if (!http::token_list(request[http::field::sec_websocket_protocol]).exists(protocol::kSubprotocol)) {
+      return write(plain(http::status::bad_request, "Sec-WebSocket-Protocol must offer weft.v1\n"), last);
+    }
+    if (context_.stopping || !scene->reserve()) {
+      return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
+                   last);
+    }
+    start_websocket_session(context_, std::move(count_), std::move(stream_), request, *scene);
+  }
+
+  void write(const Answer& answer, bool last) {
+    const HttpRequest& request = parser_->get();
+    const bool head = request.method() == http::verb::head;
+    content_ = answer.content ? answer.content : std::make_shared<const std::string>();
+    response_.emplace(answer.status, 11);
+    response_->set(http::field::server, "weft");
+    response_->set(http::field::content_type,
+                   beast::string_view(answer.media_type.data(), answer.media_type.size()));
+    response_->set(http::field::cache_control, answer.etag.empty() ? "no-store" : "no-cache");
+    if (!answer.etag.empty()) response_->set(http::field::etag, answer.etag);
+    if (answer.status == http::status::method_not_allowed) response_->set(http::field::allow, "GET, HEAD");
+    if (answer.status == http::status::upgrade_required) response_->set(http::field::upgrade, "websocket");
+    response_->set("X-Content-Type-Options", "nosniff");
+    response_->set("Referrer-Policy", "no-referrer");
+    response_->set("Content-Security-Policy", kContentPolicy);
+    allow_reading_from(view(request[http::field::origin]), view(request[http::field::host]));
+    if (answer.status != http::status::not_modified) response_->content_length(content_->size());
+    if (!head) response_->body() = {content_->data(), content_->size()};
+    response_->keep_alive(!last);
+    stream_.expires_after(kResponseTime);
+    http::async_write(stream_, *response_, [self = shared_from_this(), last](error_code error, std::size_t) {
+      if (error || last) return self->end();
+      self->read();
+    });
+  }
+
+  /// A page served elsewhere may ask for the list of scenes.
+  void allow_reading_from(std::string_view origin, std::string_view host) {
+    if (origin.empty() || !origin_allowed(origin, host, context_.options.allowed_origins)) return;
+    response_->set(http::field::access_control_allow_origin,
+                   beast::string_view(origin.data(), origin.size()));
+    response_->set(http::field::vary, "Origin");
+  }
+
+  void end() {
+    error_code ignored;
+    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
+  Context& context_;
+  ConnectionCount count_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::shared_ptr<const std::string> content_;  ///< what the response's body points into
+  std::optional<http::response<http::span_body<const char>>> response_;
+};
+
+void start_http_session(Context& context, tcp::socket socket) {
+  std::make_shared<HttpSession>(context, std::move(socket))->read();
+}
+
+}  // namespace weft::net

@@ -1,0 +1,44 @@
+#include "net/origin.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace weft::net {
+namespace {
+
+bool same_ignoring_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// "host[:port]" of "scheme://host[:port]", empty if that is not its form.
+std::string_view authority(std::string_view origin) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (origin.size() > scheme.size() && same_ignoring_case(origin.substr(0, scheme.size()), scheme)) {
+      const std::string_view rest = origin.substr(scheme.size());
+      return rest.find_first_of("/@?# ") == std::string_view::npos ? rest : std::string_view{};
+    }
+  }
+  return {};
+}
+
+std::string_view without_port(std::string_view authority) {
+  if (authority.starts_with('[')) return authority.substr(0, authority.find(']') + 1);
+  return authority.substr(0, authority.find(':'));
+}
+
+}  // namespace
+
+bool origin_allowed(std::string_view origin, std::string_view host, const std::vector<std::string>& allowed) {
+  if (origin.empty()) return true;
+  for (const std::string& entry : allowed) {
+    if (entry == "*" || same_ignoring_case(entry, origin)) return true;
+  }
+  const std::string_view from = authority(origin);
+  if (from.empty()) return false;
+  if (same_ignoring_case(from, host)) return true;
+  const std::string_view name = without_port(from);
+  return same_ignoring_case(name, "localhost") || name == "127.0.0.1" || name == "[::1]";
+}
+
+}  // namespace weft::net

@@ -1,0 +1,141 @@
+#include "net/server.h"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+#include "net/http_session.h"
+#include "net/websocket_session.h"
+
+namespace weft::net {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+constexpr auto kFarewellTime = std::chrono::seconds(3);
+/// After accept() failed, most often for want of file descriptors.
+constexpr auto kAcceptPause = std::chrono::milliseconds(100);
+
+}  // namespace
+
+struct Server::Impl {
+  Impl(host::Host& host, ServerOptions options) : context(host, std::move(options)) {}
+
+  void listen();
+  void accept();
+  void wait_for_signal();
+  void stop();
+
+  Context context;
+  // Destroyed before the context, with the sessions that its handlers hold and that use it.
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  asio::signal_set signals{io};
+  asio::steady_timer pause{io};
+};
+
+void Server::Impl::listen() {
+  const ServerOptions& options = context.options;
+  const std::string where = options.host + ":" + std::to_string(options.port);
+  error_code error;
+  tcp::resolver resolver(io);
+  const auto found = resolver.resolve(options.host, std::to_string(options.port),
+                                      tcp::resolver::passive | tcp::resolver::numeric_service, error);
+  if (error) throw std::runtime_error("cannot listen at " + where + ": " + error.message());
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  acceptor.open(endpoint.protocol(), error);
+  // So that a server can follow at once on one that just ended.
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error) throw std::runtime_error("cannot listen at " + where + ": " + error.message());
+}
+
+void Server::Impl::accept() {
+  acceptor.async_accept([this](error_code error, tcp::socket socket) {
+    if (!acceptor.is_open()) return;
+    if (error) {
+      spdlog::warn("accept: {}", error.message());
+      pause.expires_after(kAcceptPause);
+      pause.async_wait([this](error_code cancelled) {
+        if (!cancelled) accept();
+      });
+      return;
+    }
+    if (context.connections < context.options.max_connections) {
+      start_http_session(context, std::move(socket));
+    } else {
+      spdlog::warn("a connection was refused: {} are open", context.connections);
+    }
+    accept();
+  });
+}
+
+void Server::Impl::wait_for_signal() {
+  signals.async_wait([this](error_code error, int signal) {
+    if (error) return;
+    if (context.stopping) std::_Exit(128 + signal);
+    spdlog::info("signal {}: stopping", signal);
+    stop();
+    wait_for_signal();
+  });
+}
+
+void Server::Impl::stop() {
+  if (context.stopping) return;
+  context.stopping = true;
+  context.on_viewers_gone = [this] { io.stop(); };
+  acceptor.close();
+  pause.expires_after(kFarewellTime);
+  pause.async_wait([this](error_code) { io.stop(); });
+  if (context.viewers.empty()) return io.stop();
+  // A copy: a session that ends takes itself out of the set.
+  const std::vector<WebsocketSession*> viewers(context.viewers.begin(), context.viewers.end());
+  for (WebsocketSession* viewer : viewers) end_websocket_session(*viewer);
+}
+
+Server::Server(host::Host& host, ServerOptions options)
+    : impl_(std::make_unique<Impl>(host, std::move(options))) {
+  impl_->listen();
+}
+
+Server::~Server() {
+  // The sessions that are destroyed with the io_context must not call into it.
+  impl_->context.on_viewers_gone = [] {};
+}
+
+std::uint16_t Server::port() const { return impl_->acceptor.local_endpoint().port(); }
+
+std::string Server::address() const {
+  const auto address = impl_->acceptor.local_endpoint().address();
+  std::string host = address.to_string();
+  if (address.is_unspecified()) host = "127.0.0.1";
+  if (host.find(':') != std::string::npos) host = "[" + host + "]";
+  return "http://" + host + ":" + std::to_string(port()) + "/";
+}
+
+void Server::run() {
+  impl_->signals.add(SIGINT);
+  impl_->signals.add(SIGTERM);
+  impl_->wait_for_signal();
+  impl_->accept();
+  impl_->io.run();
+}
+
+void Server::stop() {
+  asio::post(impl_->io, [this] { impl_->stop(); });
+}
+
+}  // namespace weft::net

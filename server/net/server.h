@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/host.h"
+
+namespace weft::net {
+
+struct ServerOptions {
+  std::string host = "127.0.0.1";  ///< address or name to listen at
+  std::uint16_t port = 8080;       ///< 0: any free one
+  std::filesystem::path web;       ///< the page's directory; empty: no page
+  std::vector<std::string> allowed_origins;
+  std::string version;                 ///< told in `welcome`: "0.1.0"
+  std::size_t max_connections = 4096;  ///< of any kind; more are closed at once
+};
+
+/// PROTOCOL.md on one TCP port: the page, the health check, the list of scenes, and the scenes' WebSockets.
+class Server {
+ public:
+  /// Listens. Throws std::runtime_error, naming address and port, if it cannot.
+  Server(host::Host& host, ServerOptions options);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::uint16_t port() const;
+  /// Where the page is, for people on this machine: "http://127.0.0.1:8080/".
+  std::string address() const;
+
+  /// Serves, on the calling thread, until stop() or SIGTERM or SIGINT. Viewers are told and have 3 seconds to
+  /// go. A second signal ends the process at once.
+  void run();
+  /// May be called from any thread.
+  void stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace weft::net

@@ -1,0 +1,209 @@
+#include "net/websocket_session.h"
+
+#include <netinet/tcp.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "host/connection.h"
+
+namespace weft::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using beast::error_code;
+
+namespace {
+
+constexpr auto kHandshakeTime = std::chrono::seconds(10);
+/// A viewer that neither sends nor answers pings for so long is gone.
+constexpr auto kIdleTime = std::chrono::seconds(60);
+/// For a viewer to take what it is sent last, and to answer the close.
+constexpr auto kCloseTime = std::chrono::seconds(2);
+constexpr std::uint16_t kDoesNotRead = 4004;
+
+/// Frames wait here, where newer ones replace them, and not in the kernel, where they grow old: 4 MB
+/// otherwise.
+void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
+  error_code ignored;
+  socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+  socket.set_option(asio::socket_base::send_buffer_size(64 * 1024), ignored);
+  const int unsent = 16 * 1024;
+  ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
+}
+
+}  // namespace
+
+/// One viewer's WebSocket: reads its messages into the host's Connection and writes what the host's Viewer
+/// has for it, one message at a time.
+class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
+ public:
+  WebsocketSession(Context& context, ConnectionCount count, beast::tcp_stream stream,
+                   host::SceneRunner& scene)
+      : context_(context),
+        count_(std::move(count)),
+        ws_(std::move(stream)),
+        read_pause_(ws_.get_executor()),
+        close_deadline_(ws_.get_executor()),
+        connection_(context.host, scene, context.options.version) {
+    context_.viewers.insert(this);
+  }
+
+  ~WebsocketSession() {
+    context_.viewers.erase(this);
+    if (context_.stopping && context_.viewers.empty()) context_.on_viewers_gone();
+  }
+
+  WebsocketSession(const WebsocketSession&) = delete;
+  WebsocketSession& operator=(const WebsocketSession&) = delete;
+
+  void start(const HttpRequest& request) {
+    beast::tcp_stream& tcp = beast::get_lowest_layer(ws_);
+    tcp.expires_never();  // the WebSocket has its own time limits
+    keep_kernel_queue_short(tcp.socket());
+    error_code ignored;
+    const auto peer = tcp.socket().remote_endpoint(ignored);
+    peer_ = peer.address().to_string() + ":" + std::to_string(peer.port());
+    ws_.set_option(websocket::stream_base::timeout{kHandshakeTime, kIdleTime, true});
+    ws_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      response.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
+      response.set(http::field::server, "weft");
+    }));
+    ws_.auto_fragment(false);
+    ws_.read_message_max(context_.host.limits().message_bytes);
+    connection_.viewer().on_wake([weak = weak_from_this(), executor = ws_.get_executor()] {
+      asio::post(executor, [weak] {
+        if (const auto self = weak.lock()) self->pump();
+      });
+    });
+    ws_.async_accept(request, [self = shared_from_this()](error_code error) { self->on_accept(error); });
+  }
+
+  /// Sends the control messages that still wait if `drain`, then closes.
+  void close(std::uint16_t code, const char* reason, bool drain) {
+    if (closing_) return;
+    closing_ = websocket::close_reason(static_cast<websocket::close_code>(code), reason);
+    drain_ = drain;
+    close_deadline_.expires_after(kCloseTime);
+    close_deadline_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (!error && self) beast::get_lowest_layer(self->ws_).close();
+    });
+    pump();
+  }
+
+  host::Viewer& viewer() { return connection_.viewer(); }
+
+ private:
+  void on_accept(error_code error) {
+    if (error) return;
+    spdlog::info("viewer {}: joined {}", peer_, connection_.scene().name());
+    accepted_ = true;
+    read();
+    pump();
+  }
+
+  void read() {
+    ws_.async_read(incoming_,
+                   [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
+  }
+
+  void on_read(error_code error) {
+    if (error) {
+      spdlog::info("viewer {}: gone ({})", peer_, why_gone(error));
+      // A write may still wait for a peer that is no longer there.
+      beast::get_lowest_layer(ws_).close();
+      close_deadline_.cancel();
+      return;
+    }
+    bool in_time = true;
+    if (!closing_ && ws_.got_binary()) {
+      close(websocket::close_code::unknown_data, "only text messages", true);
+    } else if (!closing_) {
+      const auto data = incoming_.data();
+      in_time = connection_.receive({static_cast<const char*>(data.data()), data.size()},
+                                    std::chrono::steady_clock::now());
+    }
+    incoming_.clear();
+    if (in_time) return read();
+    // A flood is taken in no faster than what is allowed: the rest waits at its sender.
+    read_pause_.expires_after(std::chrono::milliseconds(1000 / context_.host.limits().messages_per_second));
+    read_pause_.async_wait([self = shared_from_this()](error_code) { self->read(); });
+  }
+
+  std::string why_gone(error_code error) const {
+    if (error == websocket::error::closed) return "closed, " + std::to_string(ws_.reason().code);
+    return error.message();
+  }
+
+  /// Writes the next message, unless one is being written.
+  void pump() {
+    if (!accepted_ || writing_ || close_sent_) return;
+    if (!closing_ && viewer().overflowed()) {
+      spdlog::warn("viewer {}: does not read its control messages", peer_);
+      close(kDoesNotRead, "control messages are not read", false);
+      return;
+    }
+    if (closing_ && !drain_) return send_close();
+    auto next = viewer().take();
+    if (closing_ && !(next && next->text)) return send_close();
+    if (!next) return;
+    outgoing_ = std::move(*next);
+    writing_ = true;
+    std::vector<asio::const_buffer> buffers;
+    ws_.text(outgoing_.text != nullptr);
+    if (outgoing_.text) {
+      buffers.push_back(asio::buffer(*outgoing_.text));
+    } else {
+      for (const host::Record& record : outgoing_.frame->records) buffers.push_back(asio::buffer(*record));
+    }
+    ws_.async_write(buffers,
+                    [self = shared_from_this()](error_code error, std::size_t) { self->on_written(error); });
+  }
+
+  void on_written(error_code error) {
+    writing_ = false;
+    outgoing_ = {};
+    // After an error nothing more can be written; the read that is under way fails as well and ends the
+    // session.
+    if (!error) pump();
+  }
+
+  void send_close() {
+    close_sent_ = true;
+    ws_.async_close(*closing_, [self = shared_from_this()](error_code) { self->close_deadline_.cancel(); });
+  }
+
+  Context& context_;
+  ConnectionCount count_;
+  websocket::stream<beast::tcp_stream> ws_;
+  asio::steady_timer read_pause_;
+  asio::steady_timer close_deadline_;
+  std::string peer_;
+  beast::flat_buffer incoming_;
+  host::Outgoing outgoing_;  ///< what is being written
+  std::optional<websocket::close_reason> closing_;
+  bool accepted_ = false, writing_ = false, drain_ = false, close_sent_ = false;
+  host::Connection connection_;
+};
+
+void start_websocket_session(Context& context, ConnectionCount count, beast::tcp_stream stream,
+                             const HttpRequest& request, host::SceneRunner& scene) {
+  std::make_shared<WebsocketSession>(context, std::move(count), std::move(stream), scene)->start(request);
+}
+
+void end_websocket_session(WebsocketSession& session) {
+  session.viewer().send(
+      std::make_shared<const std::string>(protocol::notice_text("shutdown", "the server stops")));
+  session.close(websocket::close_code::going_away, "the server stops", true);
+}
+
+}  // namespace weft::net
