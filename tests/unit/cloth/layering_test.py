@@ -1,0 +1,132 @@
+"""Holds the order of the house: cli > net > host > scene > cloth, and net, host > protocol.
+
+Reads the #include lines of server/ and protocol/. A part may use itself and what lies below it; cloth and protocol
+know nothing of each other or of anything above, and cloth knows no file, no socket, no JSON.
+"""
+
+import pathlib
+import re
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+ALLOWED = {
+    "cloth": {"cloth"},
+    "protocol": {"protocol"},
+    "scene": {"scene", "cloth"},
+    "host": {"host", "scene", "cloth", "protocol"},
+    "net": {"net", "host", "scene", "cloth", "protocol"},
+    "cli": {"cli", "net", "host", "scene", "cloth", "protocol"},
+}
+
+# Headers that would bring files, sockets, JSON or logging into the simulation; sockets and logging into the formats.
+FORBIDDEN_LIBRARIES = {
+    "cloth": ("nlohmann/", "boost/", "spdlog/", "CLI/", "tiny_gltf", "filesystem", "fstream", "iostream", "sys/", "netinet/"),
+    "protocol": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "Eigen/", "sys/", "netinet/"),
+    "scene": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "sys/", "netinet/"),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def part_of(path, root):
+    """The part a file belongs to, or None for files outside the house."""
+    try:
+        parts = path.resolve().relative_to(root.resolve()).parts
+    except ValueError:
+        return None
+    if parts[0] == "protocol":
+        return "protocol"
+    return parts[1] if parts[0] == "server" and len(parts) > 2 else None
+
+
+def included_part(name, file, root):
+    """The part that an include names: found next to the file, under server/ or under the root, else by its first word."""
+    for base in (file.parent, root / "server", root):
+        if (base / name).is_file():
+            return part_of(base / name, root)
+    first = name.split("/")[0]
+    return first if "/" in name and first in ALLOWED else None
+
+
+def violations(root):
+    """Every include that breaks the order, as 'file:line: why'."""
+    found = []
+    files = [f for top in ("server", "protocol") for f in sorted((root / top).rglob("*")) if f.suffix in (".h", ".cpp")]
+    for file in files:
+        part = part_of(file, root)
+        if part not in ALLOWED:
+            found.append(f"{file.relative_to(root)}: in no part of the house")
+            continue
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            quote, name = match.groups()
+            where = f"{file.relative_to(root)}:{number}"
+            target = included_part(name, file, root)
+            if target is not None and target not in ALLOWED[part]:
+                found.append(f"{where}: {part} must not know {target} ({name})")
+            if quote == "<" and name.startswith(FORBIDDEN_LIBRARIES.get(part, ())):
+                found.append(f"{where}: {part} must not use <{name}>")
+    return found
+
+
+class LayeringTest(unittest.TestCase):
+    def test_the_house_keeps_its_order(self):
+        self.assertEqual(violations(ROOT), [])
+
+    def test_every_part_is_looked_at(self):
+        seen = {part_of(f, ROOT) for top in ("server", "protocol") for f in (ROOT / top).rglob("*.h")}
+        self.assertLessEqual({"cloth", "scene", "protocol"}, seen)
+
+
+class SelfTest(unittest.TestCase):
+    """The check itself, on made-up houses."""
+
+    def check(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in files.items():
+                path = root / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            return violations(root)
+
+    def test_includes_downwards_pass(self):
+        self.assertEqual(
+            self.check({
+                "server/cli/main.cpp": '#include "net/server.h"\n#include "protocol/frame.h"\n',
+                "server/net/server.h": '#include "host/host.h"\n#include <boost/beast.hpp>\n',
+                "server/host/host.h": '#include "scene/scene.h"\n#include "protocol/frame.h"\n',
+                "server/scene/scene.h": '#include "cloth/cloth.h"\n#include <nlohmann/json.hpp>\n',
+                "server/cloth/cloth.h": '#include "cloth/effects/effect.h"\n#include <vector>\n',
+                "protocol/frame.h": '#include "protocol/grid_codec.h"\n',
+            }), [])
+
+    def test_an_include_upwards_is_caught(self):
+        for part, name in (("cloth", "scene/scene.h"), ("cloth", "protocol/frame.h"), ("scene", "host/host.h"),
+                           ("scene", "protocol/frame.h"), ("host", "net/server.h"), ("net", "cli/commands.h")):
+            found = self.check({f"server/{part}/a.cpp": f'#include <vector>\n  #  include "{name}"\n'})
+            self.assertEqual(found, [f"server/{part}/a.cpp:2: {part} must not know {name.split('/')[0]} ({name})"])
+
+    def test_protocol_knows_nobody(self):
+        for name in ("cloth/grid.h", "scene/scene.h", "host/host.h"):
+            self.assertEqual(len(self.check({"protocol/frame.cpp": f'#include "{name}"\n'})), 1, name)
+
+    def test_a_way_round_by_dots_or_by_angle_brackets_is_caught(self):
+        files = {"server/host/host.h": "", "server/cloth/a.cpp": '#include "../host/host.h"\n'}
+        self.assertEqual(len(self.check(files)), 1)
+        self.assertEqual(len(self.check({"server/cloth/a.cpp": "#include <host/host.h>\n"})), 1)
+
+    def test_a_forbidden_library_is_caught(self):
+        for name in ("nlohmann/json.hpp", "fstream", "boost/asio.hpp"):
+            self.assertEqual(len(self.check({"server/cloth/a.h": f"#include <{name}>\n"})), 1, name)
+
+    def test_a_file_in_no_part_is_caught(self):
+        self.assertEqual(len(self.check({"server/misc/a.cpp": ""})), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

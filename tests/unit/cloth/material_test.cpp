@@ -1,0 +1,51 @@
+// The named fabrics.
+#include "cloth/material.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace weft {
+namespace {
+
+TEST(Fabrics, AreAtLeastFourWithDistinctNamesAndSources) {
+  std::set<std::string_view> names;
+  for (const Fabric& fabric : fabrics()) {
+    names.insert(fabric.name);
+    EXPECT_FALSE(fabric.source.empty()) << fabric.name;
+  }
+  EXPECT_GE(names.size(), 4u);
+  EXPECT_EQ(names.size(), fabrics().size());
+}
+
+TEST(Fabrics, HaveValuesOfRealCloth) {
+  // Ranges around physics.md A: silk to denim 0.06 to 0.4 kg/m2, membrane stiffness 1e3 to 1e4 N/m, shear 10
+  // to 500 N/m.
+  for (const Fabric& fabric : fabrics()) {
+    const Material& m = fabric.material;
+    EXPECT_GE(m.density, 0.02) << fabric.name;
+    EXPECT_LE(m.density, 1.0) << fabric.name;
+    EXPECT_GE(m.structural, 100) << fabric.name;
+    EXPECT_LE(m.structural, 1e5) << fabric.name;
+    EXPECT_GT(m.shear, 0) << fabric.name;
+    EXPECT_LT(m.shear, m.structural) << fabric.name << ": woven cloth shears more easily than it stretches";
+    EXPECT_GT(m.bending, 0) << fabric.name;
+    EXPECT_LT(m.bending, m.structural) << fabric.name << ": and bends more easily still";
+    EXPECT_GE(m.damping, 0) << fabric.name;
+    EXPECT_TRUE(std::isfinite(m.damping)) << fabric.name;
+  }
+}
+
+TEST(Fabrics, AreFoundByName) {
+  for (const Fabric& fabric : fabrics()) {
+    const Fabric* found = find_fabric(fabric.name);
+    ASSERT_NE(found, nullptr) << fabric.name;
+    EXPECT_EQ(found->material, fabric.material);
+  }
+  EXPECT_EQ(find_fabric("no such fabric"), nullptr);
+  EXPECT_EQ(find_fabric(""), nullptr);
+}
+
+}  // namespace
+}  // namespace weft
