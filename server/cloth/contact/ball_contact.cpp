@@ -1,7 +1,10 @@
 #include "cloth/contact/ball_contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "cloth/kernels/contact_kernels.h"
 
 namespace weft {
 namespace {
@@ -81,9 +84,9 @@ double way_out(const PlacedBall& ball, const Vec3& origin, const Vec3& direction
   return -along + std::sqrt(std::max(0.0, along * along - offset.squaredNorm() + ball.squared_radius));
 }
 
-/// Brings a node that is inside some ball to the surface of all of them.
+/// Brings a node that is inside some ball out of all of them; false if it is in none.
 template <class Real>
-void resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed) {
+bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed) {
   Vec3 middle(0, 0, 0);  // of the balls it was found in
   int found = 0;
   for (int round = 0; round < kProjections; ++round) {
@@ -97,7 +100,7 @@ void resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
       ++found;
       moved = true;
     }
-    if (!moved) return;
+    if (!moved) return found > 0;
   }
   // Overlapping balls hand it to each other. Along a ray away from them no ball is entered twice.
   middle /= found;
@@ -111,6 +114,7 @@ void resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
       moved = true;
     }
   }
+  return true;
 }
 
 }  // namespace
@@ -123,6 +127,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
   for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius * ball.radius});
 
   const Grid& grid = particles.grid();
+  const kernels::Components<const Real> position = kernels::components(particles.position);
   int in_contact = 0;
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].tile == pairs[begin].tile) ++end;
@@ -130,21 +135,24 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
     ++counters_.tiles_examined;
     // A border node that two tiles share is looked at in the one below or to the right, whose box holds it as
     // well.
-    const int row_end = tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1;
-    const int col_end = tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1;
-    for (int r = tile.row_begin; r < row_end; ++r) {
-      for (int c = tile.col_begin; c < col_end; ++c) {
-        ++counters_.nodes_tested;
-        if (particles.inverse_mass.at(r, c) == Real(0)) continue;
-        Node<Real> node(particles, r, c);
-        const bool inside =
-            std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
-                        pairs.begin() + static_cast<std::ptrdiff_t>(end), [&](const TileBallPair& pair) {
-                          return node.inside(placed[static_cast<std::size_t>(pair.ball)]);
-                        });
-        if (!inside) continue;
-        resolve_node(node, balls, placed);
-        ++in_contact;
+    const int rows = (tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1) - tile.row_begin;
+    const int cols = (tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin;
+    const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
+    const kernels::Components<const Real> corner{position.x + first, position.y + first, position.z + first};
+    std::uint32_t struck = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const PlacedBall& ball = placed[static_cast<std::size_t>(pairs[i].ball)];
+      struck |=
+          kernels::rows_inside(corner, rows, grid.stride, cols,
+                               {ball.centre.x(), ball.centre.y(), ball.centre.z(), ball.squared_radius});
+    }
+    counters_.nodes_tested += static_cast<std::uint64_t>(rows * cols);
+    for (int r = 0; r < rows; ++r) {
+      if ((struck >> r & 1U) == 0) continue;
+      for (int c = 0; c < cols; ++c) {
+        if (particles.inverse_mass.at(tile.row_begin + r, tile.col_begin + c) == Real(0)) continue;
+        Node<Real> node(particles, tile.row_begin + r, tile.col_begin + c);
+        if (resolve_node(node, balls, placed)) ++in_contact;
       }
     }
   }

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "cloth/kernels/node_kernels.h"
+#include "cloth/kernels/contact_kernels.h"
 
 namespace weft {
 namespace {
@@ -99,10 +98,16 @@ struct ColumnExtents {
                             low.data(), high.data());
   }
   double lowest(const Tile& tile) const {
-    return double(*std::min_element(low.begin() + tile.col_begin, low.begin() + tile.col_end));
+    Real least = low[static_cast<std::size_t>(tile.col_begin)];
+    for (int c = tile.col_begin + 1; c < tile.col_end; ++c)
+      least = std::min(least, low[static_cast<std::size_t>(c)]);
+    return double(least);
   }
   double highest(const Tile& tile) const {
-    return double(*std::max_element(high.begin() + tile.col_begin, high.begin() + tile.col_end));
+    Real most = high[static_cast<std::size_t>(tile.col_begin)];
+    for (int c = tile.col_begin + 1; c < tile.col_end; ++c)
+      most = std::max(most, high[static_cast<std::size_t>(c)]);
+    return double(most);
   }
 };
 

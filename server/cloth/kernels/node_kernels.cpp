@@ -59,19 +59,6 @@ template <class Real>
   return bad == 0;
 }
 
-template <class Real>
-[[gnu::always_inline]] inline void column_extents_any(const Real* __restrict values, int rows, int stride,
-                                                      int cols, Real* __restrict low, Real* __restrict high) {
-  for (int c = 0; c < cols; ++c) low[c] = high[c] = values[c];
-  for (int r = 1; r < rows; ++r) {
-    const Real* __restrict row = values + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride);
-    for (int c = 0; c < cols; ++c) {
-      low[c] = row[c] < low[c] ? row[c] : low[c];
-      high[c] = row[c] > high[c] ? row[c] : high[c];
-    }
-  }
-}
-
 }  // namespace
 
 WEFT_MULTIVERSION void euler_update(const EulerArrays<float>& arrays, float h, std::size_t count) {
@@ -125,15 +112,6 @@ WEFT_MULTIVERSION bool all_finite(const float* values, std::size_t count) {
 }
 WEFT_MULTIVERSION bool all_finite(const double* values, std::size_t count) {
   return all_finite_any(values, count);
-}
-
-WEFT_MULTIVERSION void column_extents(const float* values, int rows, int stride, int cols, float* low,
-                                      float* high) {
-  column_extents_any(values, rows, stride, cols, low, high);
-}
-WEFT_MULTIVERSION void column_extents(const double* values, int rows, int stride, int cols, double* low,
-                                      double* high) {
-  column_extents_any(values, rows, stride, cols, low, high);
 }
 
 }  // namespace weft::kernels

@@ -34,8 +34,4 @@ void add_weighted(Components<double> force, Components<const double> field, cons
 bool all_finite(const float* values, std::size_t count);
 bool all_finite(const double* values, std::size_t count);
 
-/// Smallest and largest of `rows` rows, column by column; `values` is the first row's start.
-void column_extents(const float* values, int rows, int stride, int cols, float* low, float* high);
-void column_extents(const double* values, int rows, int stride, int cols, double* low, double* high);
-
 }  // namespace weft::kernels
