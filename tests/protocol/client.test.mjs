@@ -1,0 +1,332 @@
+// The JavaScript client against a small server of its own: what it sends, acknowledges, refuses, and how it comes back.
+import assert from 'node:assert/strict';
+import { once } from 'node:events';
+import { copyFileSync, mkdtempSync, rmSync, symlinkSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { afterEach, test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+import { WebSocket, WebSocketServer } from 'ws';
+
+import { backoff, connect, WeftClient, WeftError } from '../../protocol/clients/js/weft.js';
+import { frames, fromHex, serverMessages } from './vectors.mjs';
+
+const welcome = serverMessages.good.find(({ op }) => op === 'welcome');
+const scene = serverMessages.good.find(({ op }) => op === 'scene');
+const frameBytes = (name) => fromHex(frames.good.find((vector) => vector.name === name).hex);
+
+/** A frame whose header says step `f`. */
+function frameOf(f) {
+  const bytes = frameBytes('small');
+  new DataView(bytes.buffer).setUint32(16, f, true);
+  return bytes;
+}
+
+const open = [];
+afterEach(async () => {
+  for (const end of open.splice(0).reverse()) await end();
+});
+
+/**
+ * A server that greets and answers as `answer(message, socket)` says; null: not at all. `received` holds all messages.
+ * `expect(op)` gives the next message of that op, waiting for it where it has not come yet.
+ */
+async function serve({ answer = () => ({}), afterHello = () => {}, afterConnection = () => {}, greet = true, port = 0, ...options } = {}) {
+  const server = new WebSocketServer({ host: '127.0.0.1', port, handleProtocols: () => 'weft.v1', ...options });
+  await once(server, 'listening');
+  const stop = async () => {
+    for (const socket of server.clients) socket.terminate();
+    if (server.address()) await new Promise((resolve) => { server.close(resolve); });
+  };
+  open.push(stop);
+  const received = [], waiting = [], sockets = [];
+  const deliver = () => {
+    for (const wait of [...waiting]) {
+      const at = received.findIndex(({ op }) => op === wait.op);
+      if (at < 0) continue;
+      waiting.splice(waiting.indexOf(wait), 1);
+      wait.resolve(received.splice(at, 1)[0]);
+    }
+  };
+  server.on('connection', (socket, request) => {
+    sockets.push(Object.assign(socket, { path: request.url }));
+    socket.on('message', (data) => {
+      const message = JSON.parse(data);
+      received.push(message);
+      const extra = message.op === 'hello' ? { caps: message.caps ?? [] } : answer(message, socket);
+      if (message.id && extra) socket.send(JSON.stringify({ op: 'ok', re: message.id, f: 1, ...extra }));
+      if (message.op === 'hello') afterHello(socket);
+      deliver();
+    });
+    if (greet) for (const message of [welcome, scene]) socket.send(JSON.stringify(message));
+    afterConnection(socket);
+  });
+  return {
+    url: `ws://127.0.0.1:${server.address().port}/v1/scenes/flag`, port: server.address().port, sockets, received, stop,
+    expect: (op) => new Promise((resolve) => { waiting.push({ op, resolve }); deliver(); }),
+  };
+}
+
+/** A client that is closed when the test ends. */
+async function join(server, options = {}) {
+  const client = await connect(server.url, { WebSocket, ...options });
+  open.push(async () => client.close());
+  return client;
+}
+
+test('connects with hello, and knows the welcome and the scene', async () => {
+  const server = await serve();
+  const client = await join(server, { client: 'test', window: 3 });
+  assert.deepEqual(client.welcome, welcome);
+  assert.deepEqual(client.scene, scene);
+  assert.equal(client.connected, true);
+  assert.deepEqual(await server.expect('hello'), { op: 'hello', id: 1, client: 'test', caps: ['flow.ack'], window: 3 });
+  assert.equal(server.sockets[0].protocol, 'weft.v1');
+});
+
+test('in Node the package ws is taken from where the client is installed', { skip: 'WebSocket' in globalThis && 'the platform has a WebSocket' }, async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 'weft-client-'));
+  open.push(async () => rmSync(folder, { recursive: true }));
+  for (const file of ['weft.js', 'package.json'])
+    copyFileSync(new URL(`../../protocol/clients/js/${file}`, import.meta.url), path.join(folder, file));
+  symlinkSync(fileURLToPath(new URL('../node_modules', import.meta.url)), path.join(folder, 'node_modules'));
+  const installed = await import(pathToFileURL(path.join(folder, 'weft.js')).href);
+  const server = await serve();
+  const client = await installed.connect(server.url);
+  open.push(async () => client.close());
+  assert.deepEqual(client.welcome, welcome);
+});
+
+test('each method sends its operation', async () => {
+  const answers = { 'ball.add': { ball: 7 }, 'scene.list': { scenes: [{ name: 'flag' }] }, ping: { op: 'pong' } };
+  const server = await serve({ answer: ({ op }) => answers[op] ?? {} });
+  const client = await join(server, { window: 0 });
+  await client.camera({ distance: 5 });
+  await client.camera({ eye: [0, 1, 2] });
+  assert.equal(await client.addBall({ position: [0, 1, 2], radius: 0.2 }), 7);
+  await client.moveBall(7, [1, 1, 1]);
+  await client.throwBall(7, [0, 0, -6]);
+  await client.removeBall(7);
+  await client.setWind([0, 0, -1], 3);
+  await client.pause();
+  await client.step(2);
+  await client.resume();
+  await client.reset();
+  assert.deepEqual(await client.listScenes(), [{ name: 'flag' }]);
+  assert.ok(await client.ping() >= 0);
+  await client.joinScene('curtain');
+  const sent = server.received.map(({ id, ...message }) => message);
+  assert.equal(typeof sent.at(-2).t, 'number');
+  delete sent.at(-2).t;
+  assert.deepEqual(sent, [
+    { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
+    { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
+    { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);
+  assert.deepEqual(server.received.map(({ id }) => id), sent.map((_, i) => i + 1), 'ids are counted');
+});
+
+test('an error becomes a WeftError with code and path, and the connection goes on', async () => {
+  const refusal = { op: 'error', code: 'range', path: '/speed', message: '/speed is 1000; allowed: 0..100 (m/s)' };
+  const server = await serve({ answer: ({ op }) => (op === 'wind.set' ? refusal : {}) });
+  const client = await join(server);
+  await assert.rejects(client.setWind([0, 0, -1], 1000), (error) => error instanceof WeftError && error.code === 'range' &&
+    error.path === '/speed' && error.message === refusal.message);
+  assert.equal((await client.pause()).op, 'ok');
+});
+
+test('answers find their requests in any order', async () => {
+  const held = [];
+  const server = await serve({ answer: (message, socket) => { held.push({ message, socket }); return null; } });
+  const client = await join(server, { window: 0 });
+  const answers = Promise.all([client.send('ping', { t: 1 }), client.send('ping', { t: 2 })]);
+  await server.expect('ping');
+  await server.expect('ping');
+  for (const { message, socket } of held.reverse()) socket.send(JSON.stringify({ op: 'pong', re: message.id, t: message.t, f: 1, time: 0 }));
+  assert.deepEqual((await answers).map(({ t }) => t), [1, 2]);
+});
+
+test('frames are decoded, handed over and acknowledged in turn', async () => {
+  const server = await serve();
+  const seen = [];
+  const client = await join(server, { onframe: (frame) => { seen.push(frame.stamp.f); } });
+  for (const f of [5, 6]) {
+    server.sockets[0].send(frameOf(f));
+    assert.deepEqual(await server.expect('ack'), { op: 'ack', f });
+  }
+  assert.deepEqual(seen, [5, 6]);
+  assert.equal(client.frame.stamp.f, 6);
+});
+
+test('while a handler is busy the newest frame replaces older ones, and nothing is acknowledged', async () => {
+  const server = await serve();
+  const seen = [];
+  let release;
+  const busy = new Promise((resolve) => { release = resolve; });
+  const client = await join(server, { onframe: (frame) => { seen.push(frame.stamp.f); return frame.stamp.f === 1 ? busy : undefined; } });
+  for (const f of [1, 2, 3, 4]) server.sockets[0].send(frameOf(f));
+  await client.pause();  // answered after the frames: they have all come
+  assert.deepEqual(seen, [1]);
+  assert.equal(server.received.filter(({ op }) => op === 'ack').length, 0);
+  release();
+  assert.deepEqual(await server.expect('ack'), { op: 'ack', f: 1 });
+  assert.deepEqual(await server.expect('ack'), { op: 'ack', f: 4 });
+  assert.deepEqual(seen, [1, 4]);
+});
+
+test('a frame right behind the answer to hello is acknowledged, even with a window of one', async () => {
+  const server = await serve({ afterHello: (socket) => socket.send(frameOf(9)) });
+  await join(server, { window: 1 });
+  assert.deepEqual(await server.expect('ack'), { op: 'ack', f: 9 });
+});
+
+test('without flow control nothing is acknowledged', async () => {
+  const server = await serve();
+  const client = await join(server, { window: 0 });
+  server.sockets[0].send(frameOf(3));
+  assert.equal((await client.nextFrame()).stamp.f, 3);
+  await client.pause();
+  assert.deepEqual(server.received.map(({ op }) => op), ['pause']);
+});
+
+test('a malformed frame and a failing handler go to onerror; the next frame is handled', async () => {
+  const server = await serve();
+  const errors = [];
+  const client = await join(server, {
+    onerror: (error) => errors.push(error.message),
+    onframe: (frame) => { if (frame.stamp.f === 1) throw new Error('handler failed'); },
+  });
+  server.sockets[0].send(fromHex('00'));
+  await client.pause();
+  server.sockets[0].send(frameOf(1));
+  await client.pause();
+  server.sockets[0].send(frameOf(2));
+  await client.nextFrame(({ stamp }) => stamp.f === 2);
+  assert.deepEqual(errors, ['header cut short', 'handler failed']);
+});
+
+test('nextFrame waits for the frame it is asked for, and no longer than it may', async () => {
+  const server = await serve();
+  const client = await join(server);
+  const wanted = client.nextFrame(({ stamp }) => stamp.f >= 3);
+  for (const f of [1, 2, 3]) {
+    server.sockets[0].send(frameOf(f));
+    await server.expect('ack');
+  }
+  assert.equal((await wanted).stamp.f, 3);
+  await assert.rejects(client.nextFrame(() => false, 20), { code: 'timeout' });
+});
+
+test('messages that answer nothing go to onmessage, and a new scene is remembered', async () => {
+  const server = await serve();
+  const heard = [];
+  const client = await join(server, { onmessage: ({ op }) => heard.push(op) });
+  const other = { ...scene, name: 'curtain' };
+  for (const message of [...serverMessages.good.filter(({ op }) => op === 'event' || op === 'stats' || op === 'notice'), other])
+    server.sockets[0].send(JSON.stringify(message));
+  await client.pause();
+  assert.deepEqual([...new Set(heard)], ['welcome', 'scene', 'event', 'stats', 'notice']);
+  assert.equal(client.scene.name, 'curtain');
+});
+
+test('a request without answer fails after the time it was given', async () => {
+  const server = await serve({ answer: () => null });
+  const client = await join(server, { timeout: 50 });
+  await assert.rejects(client.pause(), { code: 'timeout' });
+});
+
+test('a server that does not greet is given up in time', async () => {
+  const server = await serve({ greet: false });
+  await assert.rejects(connect(server.url, { WebSocket, timeout: 50 }), { code: 'timeout' });
+});
+
+test('no server, and a server that refuses, are told apart from time running out', async () => {
+  const server = await serve({ verifyClient: (_, done) => done(false, 404) });
+  await assert.rejects(connect(server.url, { WebSocket }), (error) => error.code === 'connect' && /404/.test(error.message));
+  await server.stop();
+  await assert.rejects(connect(server.url, { WebSocket }), (error) => error.code === 'connect' && /ECONNREFUSED/.test(error.message));
+});
+
+test('a connection lost during hello fails at once', async () => {
+  // One that greets, and hangs up on the first message.
+  const server = await serve({ greet: false, afterConnection: (socket) => {
+    for (const message of [welcome, scene]) socket.send(JSON.stringify(message));
+    socket.removeAllListeners('message').on('message', () => socket.terminate());
+  } });
+  await assert.rejects(connect(server.url, { WebSocket, timeout: 60000 }), { code: 'closed' });
+});
+
+test('without reconnect a lost connection is the end: requests fail, and it is told', async () => {
+  const server = await serve({ answer: (_, socket) => { socket.close(1001, 'the server stops'); return null; } });
+  const states = [];
+  const client = await join(server, { onstate: (state, { code, reason }) => states.push([state, code, reason]) });
+  const waiter = client.nextFrame();
+  const outcome = assert.rejects(waiter, { code: 'closed' });
+  await assert.rejects(client.pause(), (error) => error.code === 'closed' && /1001: the server stops/.test(error.message));
+  await outcome;
+  await assert.rejects(client.pause(), { code: 'closed' });
+  assert.deepEqual(states, [['open', undefined, undefined], ['closed', 1001, 'the server stops']]);
+});
+
+test('with reconnect it comes back to its scene, says hello and tells its camera again', async () => {
+  const server = await serve();
+  let opened;
+  const states = [];
+  const client = await join(server, { reconnect: true, onstate: (state) => { states.push(state); if (state === 'open') opened?.(); } });
+  await client.camera({ distance: 12 });
+  await client.joinScene('curtain');
+  server.received.length = 0;
+  const again = new Promise((resolve) => { opened = resolve; });
+  server.sockets[0].terminate();
+  await again;
+  assert.deepEqual(states, ['open', 'waiting', 'open']);
+  assert.equal(server.sockets[1].path, '/v1/scenes/curtain');
+  assert.deepEqual(server.received.map(({ id, ...message }) => message), [
+    { op: 'hello', caps: ['flow.ack'], window: 2 }, { op: 'camera', distance: 12 }]);
+  server.sockets[1].send(frameOf(11));
+  assert.equal((await client.nextFrame()).stamp.f, 11);
+});
+
+test('with reconnect a server that is not there yet is waited for', async () => {
+  const first = await serve();
+  await first.stop();
+  let tried;
+  const waiting = new Promise((resolve) => { tried = resolve; });
+  const client = new WeftClient(first.url, { WebSocket, reconnect: true, onstate: (state, why) => { if (state === 'waiting') tried(why); } });
+  open.push(async () => client.close());
+  const opened = client.open();
+  const why = await waiting;
+  assert.equal(why.error.code, 'connect');
+  assert.ok(why.delay >= 125 && why.delay <= 250, 'the first wait is 0.25 s, jittered down to half');
+  await serve({ port: first.port });
+  assert.equal(await opened, client);
+});
+
+test('closed on purpose it stays closed, also while waiting to reconnect', async () => {
+  const server = await serve();
+  const states = [];
+  let waits;
+  const waiting = new Promise((resolve) => { waits = resolve; });
+  const client = await join(server, { reconnect: true, onstate: (state) => { states.push(state); if (state === 'waiting') waits(); } });
+  await server.stop();
+  await waiting;
+  client.close();
+  client.close();
+  await assert.rejects(client.open(), { code: 'closed' });
+  assert.deepEqual(states, ['open', 'waiting', 'closed']);
+});
+
+test('closing says 1000 to the server', async () => {
+  const server = await serve();
+  const client = await join(server, { reconnect: true });
+  const closed = once(server.sockets[0], 'close');
+  client.close();
+  assert.equal((await closed)[0], 1000);
+  assert.equal(client.connected, false);
+});
+
+test('the back-off doubles from 0.25 s to 10 s and is jittered down to half', () => {
+  assert.deepEqual([0, 1, 2, 3, 4, 5, 6, 1000].map((attempt) => backoff(attempt, () => 1)), [250, 500, 1000, 2000, 4000, 8000, 10000, 10000]);
+  assert.equal(backoff(3, () => 0), 1000);
+});
