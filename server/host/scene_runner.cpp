@@ -75,9 +75,10 @@ void SceneRunner::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     for (const Task& task : wait_for_work(stop)) carry_out(task);
     step_if_due();
+    // Before the frame goes out: who has seen it must not be told an older step.
+    frame_ = live_.simulation().step_count();
     live_.publish(server_ms());
     send_stats_if_due();
-    frame_ = live_.simulation().step_count();
     encodes_ = live_.encoder().encodes();
   }
 }

@@ -1,0 +1,315 @@
+/// What each command does to a scene, what is answered, and who is told.
+#include "fixtures.h"
+#include "host/live_scene.h"
+
+namespace weft::host::test {
+namespace {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace): the commands' names
+
+class Commands : public ::testing::Test {
+ protected:
+  explicit Commands(const scene::Scene& scene = hung_cloth()) : live(scene, Limits{}) {
+    visit = reader.viewer->enter();
+    live.add_viewer(reader.viewer, visit);
+    live.add_viewer(other.viewer, other.viewer->enter());
+    live.publish(0);
+    drain();
+  }
+
+  /// Gives a command and returns its reply.
+  json command(SceneCommand command) {
+    live.apply(reader.viewer, visit, {++id, std::move(command)});
+    live.publish(0);
+    drain();
+    return reader.reply(id);
+  }
+  void steps(int count) {
+    for (int i = 0; i < count && live.wants_step(); ++i) {
+      live.step();
+      live.publish(0);
+      drain();
+    }
+  }
+  void drain() {
+    reader.drain();
+    other.drain();
+  }
+
+  LiveScene live;
+  Reader reader, other;
+  std::uint64_t visit = 0;
+  std::int64_t id = 0;
+};
+
+TEST_F(Commands, TakeEffectInTheNextStep) {
+  steps(7);
+  const json ok = command(WindSet{{1, 0, 0}, 3.0});
+  EXPECT_EQ(ok.at("op"), "ok");
+  EXPECT_EQ(ok.at("f"), 8);  // seven steps are made
+  EXPECT_EQ(other.last("event", "wind").at("f"), 8);
+  EXPECT_EQ(other.last("event", "wind").at("wind"), json({{"direction", {1, 0, 0}}, {"speed", 3.0}}));
+  EXPECT_EQ(live.simulation().wind().speed, 3.0);
+}
+
+TEST_F(Commands, WithoutAnIdOnlyErrorsAreAnswered) {
+  const auto before = reader.texts.size();
+  live.apply(reader.viewer, visit, {std::nullopt, Camera{2.0, std::nullopt}});
+  drain();
+  EXPECT_EQ(reader.texts.size(), before);
+  live.apply(reader.viewer, visit, {std::nullopt, BallMove{99, {0, 0, 0}}});
+  drain();
+  ASSERT_EQ(reader.texts.size(), before + 1);
+  EXPECT_EQ(reader.texts.back().at("code"), "not_found");
+  EXPECT_FALSE(reader.texts.back().contains("re"));
+}
+
+TEST_F(Commands, BallsAreAddedMovedThrownAndRemoved) {
+  const json added = command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  const int ball = added.at("ball");
+  EXPECT_EQ(other.last("event", "ball.add").at("ball"), ball);
+  EXPECT_EQ(other.last("event", "ball.add").at("balls").at(0).at("radius"), 0.25);
+  EXPECT_EQ(command(BallMove{static_cast<std::uint32_t>(ball), {1, 0, 3}}).at("op"), "ok");
+  steps(1);
+  EXPECT_EQ(reader.frames.back().balls.at(0).position, (std::array<float, 3>{1, 0, 3}));
+  EXPECT_FALSE(reader.frames.back().balls[0].dynamic);
+  EXPECT_EQ(command(BallThrow{static_cast<std::uint32_t>(ball), {0, 4, 0}}).at("op"), "ok");
+  EXPECT_EQ(other.last("event", "ball.throw").at("balls").at(0).at("motion"), "dynamic");
+  steps(1);
+  EXPECT_TRUE(reader.frames.back().balls.at(0).dynamic);
+  EXPECT_GT(reader.frames.back().balls[0].position[1], 0.0F);
+  EXPECT_EQ(command(BallRemove{static_cast<std::uint32_t>(ball)}).at("op"), "ok");
+  EXPECT_EQ(other.last("event", "ball.remove").at("balls"), json::array());
+  steps(1);
+  EXPECT_TRUE(reader.frames.back().balls.empty());
+}
+
+TEST_F(Commands, OnABallThatIsNotThereAreNotFound) {
+  for (const SceneCommand& each :
+       std::vector<SceneCommand>{BallMove{5, {}}, BallThrow{5, {}}, BallRemove{5}}) {
+    const json error = command(each);
+    EXPECT_EQ(error.at("op"), "error");
+    EXPECT_EQ(error.at("code"), "not_found");
+    EXPECT_EQ(error.at("path"), "/ball");
+    EXPECT_EQ(error.at("message"), "/ball is 5; the scene has no such ball");
+  }
+}
+
+TEST_F(Commands, The65thBallIsRefused) {
+  for (int i = 0; i < 64; ++i) {
+    ASSERT_EQ(command(BallAdd{{0, 0, 10.0 + i}, 0.1, {}, false, 1}).at("op"), "ok");
+  }
+  const json error = command(BallAdd{{0, 0, 5}, 0.1, {}, false, 1});
+  EXPECT_EQ(error.at("code"), "limit");  // PROTOCOL.md section 6: 64 a scene
+  EXPECT_EQ(live.simulation().colliders().balls().size(), 64U);
+}
+
+TEST_F(Commands, ABallThatFliesAwayIsRemovedAndTold) {
+  command(BallAdd{{0, -999.99, 0}, 0.2, {0, -200, 0}, true, 1});
+  steps(1);  // 3.3 m a step, past 1000 m
+  EXPECT_TRUE(live.simulation().colliders().balls().empty());
+  EXPECT_EQ(other.last("event", "ball.remove").at("balls"), json::array());
+}
+
+TEST_F(Commands, PauseStopsTheSceneForAll) {
+  steps(4);
+  const json ok = command(Pause{});
+  EXPECT_EQ(ok.at("f"), 4);
+  EXPECT_FALSE(live.wants_step());
+  EXPECT_EQ(other.last("event", "pause").at("paused"), true);
+  // One more frame of the same step, whose flag tells.
+  EXPECT_EQ(other.frames.back().stamp.frame, 4U);
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagPaused, kFlagPaused);
+  EXPECT_EQ(command(Resume{}).at("f"), 5);
+  EXPECT_TRUE(live.wants_step());
+  steps(1);
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagPaused, 0);
+}
+
+TEST_F(Commands, StepMakesTheStepsAskedForAndNoMore) {
+  steps(2);
+  command(Pause{});
+  EXPECT_EQ(command(Step{3}).at("f"), 5);
+  steps(100);
+  EXPECT_EQ(live.simulation().step_count(), 5U);
+  EXPECT_EQ(other.frames.back().stamp.frame, 5U);
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagPaused, kFlagPaused);
+}
+
+TEST_F(Commands, StepIsRefusedWhileRunningAndBeyondItsLimit) {
+  EXPECT_EQ(command(Step{1}).at("code"), "conflict");
+  command(Pause{});
+  EXPECT_EQ(command(Step{600}).at("op"), "ok");
+  EXPECT_EQ(command(Step{1}).at("code"), "limit");
+}
+
+TEST_F(Commands, ResetStartsTheNextEpoch) {
+  const auto start = live.simulation().cloths()[0].particles().position.y.values();
+  steps(5);
+  command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  command(WindSet{{1, 0, 0}, 9});
+  const json ok = command(Reset{});
+  EXPECT_EQ(ok.at("f"), 0);
+  EXPECT_EQ(live.epoch(), 2U);
+  EXPECT_EQ(live.simulation().step_count(), 0U);
+  EXPECT_EQ(live.simulation().wind().speed, 1.0);
+  const json event = other.last("event", "reset");
+  EXPECT_EQ(event.at("epoch"), 2);
+  EXPECT_EQ(event.at("balls"), json::array());
+  EXPECT_EQ(event.at("wind").at("speed"), 1.0);
+  EXPECT_EQ(other.frames.back().stamp.epoch, 2U);
+  EXPECT_EQ(other.frames.back().stamp.frame, 0U);
+  EXPECT_EQ(live.simulation().cloths()[0].particles().position.y.values(), start);
+}
+
+TEST_F(Commands, APausedSceneAnswersTheCameraWithAFrame) {
+  steps(3);
+  command(Camera{12.0, std::nullopt});
+  steps(1);
+  command(Pause{});
+  const auto frames = reader.frames.size(), others = other.frames.size();
+  command(Camera{0.5, std::nullopt});
+  ASSERT_EQ(reader.frames.size(), frames + 1);
+  EXPECT_EQ(reader.frames.back().stamp.frame, 4U);
+  EXPECT_EQ(reader.frames.back().cloths[0].level, 6);  // split at once, although no step is made
+  EXPECT_EQ(other.frames.size(), others + 1);          // the simulated level changed for all
+  command(Camera{20.0, std::nullopt});
+  EXPECT_EQ(reader.frames.back().cloths[0].level, 4);
+  EXPECT_EQ(reader.frames.back().cloths[0].simulated_level, 6);  // nothing is thrown away while it stands
+  EXPECT_EQ(other.frames.size(), others + 1);
+}
+
+TEST_F(Commands, AJoinIsAnsweredByTheSceneAndAFrameEvenWhilePaused) {
+  steps(3);
+  command(Pause{});
+  Reader late;
+  live.add_viewer(late.viewer, late.viewer->enter());
+  live.publish(0);
+  late.drain();
+  ASSERT_EQ(late.texts.size(), 1U);
+  EXPECT_EQ(late.texts[0].at("op"), "scene");
+  EXPECT_EQ(late.texts[0].at("paused"), true);
+  EXPECT_EQ(late.texts[0].at("f"), 3);
+  ASSERT_EQ(late.frames.size(), 1U);
+  EXPECT_EQ(late.frames[0].stamp.frame, 3U);
+}
+
+TEST_F(Commands, StatsTellEachViewerItsOwn) {
+  command(Camera{12.0, std::nullopt});
+  steps(2);
+  live.send_stats(0.5);
+  drain();
+  const json mine = reader.last("stats"), theirs = other.last("stats");
+  EXPECT_EQ(mine.at("rate"), 0.5);
+  EXPECT_EQ(mine.at("viewers"), 2);
+  EXPECT_EQ(mine.at("cloths").at(0).at("level"), 4);
+  EXPECT_EQ(mine.at("cloths").at(0).at("nodes"), 17 * 17);
+  EXPECT_EQ(mine.at("cloths").at(0).at("distance"), 12.0);
+  EXPECT_EQ(theirs.at("cloths").at(0).at("level"), 5);
+  EXPECT_EQ(theirs.at("cloths").at(0).at("nodes"), 33 * 33);
+  EXPECT_EQ(theirs.at("cloths").at(0).at("simulated_level"), 5);
+  EXPECT_GE(theirs.at("cloths").at(0).at("substeps"), 1);
+}
+
+TEST_F(Commands, ASlowClockIsToldOnceAndInEachFrame) {
+  live.set_slow(true);
+  live.set_slow(true);
+  steps(1);
+  EXPECT_EQ(other.last("notice").at("code"), "slow");
+  EXPECT_EQ(std::count_if(other.texts.begin(), other.texts.end(),
+                          [](const json& text) { return text.at("op") == "notice"; }),
+            1);
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagSlow, kFlagSlow);
+  live.set_slow(false);
+  steps(1);
+  EXPECT_EQ(other.last("notice").at("code"), "real_time");
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagSlow, 0);
+}
+
+TEST_F(Commands, WithoutViewersNothingIsStepped) {
+  live.remove_viewer(reader.viewer.get(), visit);
+  EXPECT_TRUE(live.wants_step());  // the other one looks
+  live.remove_viewer(other.viewer.get(), 1);
+  EXPECT_FALSE(live.wants_step());
+}
+
+class CommandsWithoutWind : public Commands {
+ protected:
+  static scene::Scene still() {
+    scene::Scene scene = hung_cloth();
+    scene.simulation.effects = {GravityEffect{}};
+    return scene;
+  }
+  CommandsWithoutWind() : Commands(still()) {}
+};
+
+TEST_F(CommandsWithoutWind, WindIsUnavailable) {
+  EXPECT_EQ(command(WindSet{{1, 0, 0}, 3}).at("code"), "unavailable");
+}
+
+/// One substep of 1/60 s where the stiffest mode allows 0.2 ms: the state leaves the numbers within a few
+/// steps.
+class GoneBad : public Commands {
+ protected:
+  static scene::Scene explosive() {
+    scene::Scene scene = hung_cloth();
+    scene.simulation.cloths[0].material.structural = 50000;
+    scene.simulation.cloths[0].perturbation = 0.01;
+    scene.simulation.integrator = SymplecticEulerDescription{1, 0.9};
+    return scene;
+  }
+  GoneBad() : Commands(explosive()) {
+    steps(1000);
+    live.publish(0);
+    drain();
+  }
+};
+
+TEST_F(GoneBad, PausesItselfAndTells) {
+  ASSERT_TRUE(live.unstable());
+  EXPECT_TRUE(live.paused());
+  EXPECT_FALSE(live.wants_step());
+  EXPECT_EQ(other.last("notice").at("code"), "unstable");
+  EXPECT_EQ(other.last("event", "pause").at("paused"), true);
+}
+
+TEST_F(GoneBad, SendsNothingThatIsNotFinite) {
+  ASSERT_TRUE(live.unstable());
+  ASSERT_GE(other.frames.size(), 2U);
+  for (const auto& frame : other.frames) {
+    for (const float value : frame.cloths[0].positions) ASSERT_TRUE(std::isfinite(value));
+  }
+  // The newest frame is the last good one: of the step before the bad one.
+  EXPECT_EQ(other.frames.back().stamp.frame, live.simulation().step_count() - 1);
+  EXPECT_EQ(other.frames.back().stamp.flags & kFlagPaused, kFlagPaused);
+}
+
+TEST_F(GoneBad, KeepsShowingTheLastGoodFrame) {
+  ASSERT_TRUE(live.unstable());
+  Reader late;
+  live.add_viewer(late.viewer, late.viewer->enter());
+  live.publish(0);
+  late.drain();
+  ASSERT_EQ(late.frames.size(), 1U);
+  EXPECT_EQ(late.frames[0].cloths[0].positions, other.frames.back().cloths[0].positions);
+  EXPECT_EQ(late.last("notice").at("code"), "unstable");
+  command(Camera{std::nullopt, Vector{0, 0, 30}});
+  EXPECT_EQ(reader.frames.back().cloths[0].level, 4);
+}
+
+TEST_F(GoneBad, RefusesToGoOnUntilItIsReset) {
+  ASSERT_TRUE(live.unstable());
+  for (const SceneCommand& each :
+       std::vector<SceneCommand>{Resume{}, Step{1}, WindSet{{1, 0, 0}, 1}, BallAdd{{}, 1, {}, false, 1}}) {
+    EXPECT_EQ(command(each).at("code"), "conflict");
+  }
+  EXPECT_EQ(command(Reset{}).at("op"), "ok");
+  EXPECT_FALSE(live.unstable());
+  EXPECT_FALSE(live.paused());  // as it was before it went bad
+  steps(1);
+  EXPECT_EQ(other.frames.back().stamp.epoch, 2U);
+  EXPECT_EQ(other.frames.back().stamp.frame, 1U);
+}
+
+}  // namespace
+}  // namespace weft::host::test

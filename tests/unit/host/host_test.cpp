@@ -1,0 +1,276 @@
+/// Scenes on their own threads, spoken to through connections as the network does. Run with the tsan preset
+/// as well.
+#include "host/host.h"
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "cloth/simulation.h"
+#include "fixtures.h"
+#include "host/connection.h"
+
+namespace weft::host::test {
+namespace {
+
+/// A connection to a scene, and what it is sent.
+struct Guest {
+  Guest(Host& host, const std::string& scene)
+      : connection(connect(host, scene)), reader(connection->shared_viewer()) {}
+  static std::unique_ptr<Connection> connect(Host& host, const std::string& scene) {
+    EXPECT_TRUE(host.find(scene)->reserve());
+    return std::make_unique<Connection>(host, *host.find(scene), "test");
+  }
+  void say(const std::string& text) { connection->receive(text, std::chrono::steady_clock::now()); }
+  /// Says it and waits for the reply to request `id`.
+  json ask(const std::string& text, std::int64_t id) {
+    say(text);
+    EXPECT_TRUE(reader.wait_until([&] { return !reader.reply(id).is_null(); })) << text;
+    return reader.reply(id);
+  }
+  bool wait_for_frame(const std::function<bool(const protocol::Frame&)>& wanted) {
+    return reader.wait_until([&] { return std::any_of(reader.frames.begin(), reader.frames.end(), wanted); });
+  }
+
+  std::unique_ptr<Connection> connection;
+  Reader reader;
+};
+
+TEST(HostOfScenes, WelcomesThenDescribesTheSceneThenSendsFrames) {
+  Host host;
+  host.add(hung_cloth());
+  Guest guest(host, "hung");
+  ASSERT_TRUE(guest.wait_for_frame([](const auto&) { return true; }));
+  ASSERT_GE(guest.reader.texts.size(), 2U);
+  EXPECT_EQ(guest.reader.texts[0].at("op"), "welcome");
+  EXPECT_EQ(guest.reader.texts[1].at("op"), "scene");
+  EXPECT_EQ(guest.reader.texts[1].at("name"), "hung");
+}
+
+TEST(HostOfScenes, ASceneWithoutViewersSleeps) {
+  Host host;
+  host.add(hung_cloth("alone"));
+  host.add(hung_cloth("seen"));
+  {
+    Guest guest(host, "seen");
+    ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 20; }));
+    EXPECT_EQ(host.find("alone")->frame(), 0U);
+  }
+  // Woken by a viewer, it goes on from where it was.
+  Guest guest(host, "alone");
+  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame == 1; }));
+}
+
+TEST(HostOfScenes, GoesOnWhereItSlept) {
+  Host host;
+  host.add(hung_cloth("sleeper"));
+  host.add(hung_cloth("clock"));
+  Guest watch(host, "clock");
+  {
+    Guest guest(host, "sleeper");
+    ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 5; }));
+  }
+  const auto at = host.find("clock")->frame();
+  ASSERT_TRUE(watch.wait_for_frame([&](const auto& frame) { return frame.stamp.frame >= at + 30; }));
+  const auto slept_at = host.find("sleeper")->frame();
+  ASSERT_TRUE(watch.wait_for_frame([&](const auto& frame) { return frame.stamp.frame >= at + 60; }));
+  EXPECT_EQ(host.find("sleeper")->frame(), slept_at);
+  Guest guest(host, "sleeper");
+  ASSERT_TRUE(guest.wait_for_frame([](const auto&) { return true; }));
+  EXPECT_GE(guest.reader.frames.front().stamp.frame, slept_at);
+  EXPECT_LE(guest.reader.frames.front().stamp.frame, slept_at + 1);
+}
+
+TEST(HostOfScenes, CommandsTakeEffectAtTheStepTheReplyNames) {
+  Host host;
+  host.add(hung_cloth());
+  Guest guest(host, "hung");
+  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 10; }));
+  const json wind = guest.ask(R"({"op":"wind.set","id":1,"direction":[1,0,0],"speed":8})", 1);
+  ASSERT_TRUE(guest.wait_for_frame([&](const auto& frame) { return frame.stamp.frame >= 40; }));
+  const json pause = guest.ask(R"({"op":"pause","id":2})", 2);
+  const auto end = pause.at("f").get<std::uint32_t>();
+  ASSERT_TRUE(guest.wait_for_frame([&](const auto& frame) {
+    return frame.stamp.frame == end && (frame.stamp.flags & protocol::kFlagPaused) != 0;
+  }));
+
+  // The same scene alone, the wind set before the very step that was named.
+  Simulation<float> alone(hung_cloth().simulation);
+  alone.request_level(0, 5);
+  while (alone.step_count() < end) {
+    if (alone.step_count() + 1 == wind.at("f").get<std::uint64_t>()) alone.set_wind({{1, 0, 0}, 8});
+    alone.step();
+  }
+  const protocol::ClothRecord& shown = guest.reader.frames.back().cloths[0];
+  ASSERT_EQ(shown.level, 5);
+  for (int r = 0; r < shown.rows; ++r) {
+    for (int c = 0; c < shown.cols; ++c) {
+      const Vec3 p = alone.cloths()[0].particles().position_at(r, c);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double value =
+            double(shown.positions[static_cast<std::size_t>(3 * (r * shown.cols + c) + axis)]);
+        // Half a quantum of the frame; the decoder's rounding.
+        ASSERT_NEAR(value, p[axis], 0.5 * double(shown.quantisation.quantum) + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(HostOfScenes, StepsOfAPausedSceneArriveAsFrames) {
+  Host host;
+  host.add(hung_cloth());
+  Guest guest(host, "hung");
+  const auto paused = guest.ask(R"({"op":"pause","id":1})", 1).at("f").get<std::uint32_t>();
+  const json ok = guest.ask(R"({"op":"step","id":2,"count":3})", 2);
+  EXPECT_EQ(ok.at("f"), paused + 3);
+  ASSERT_TRUE(guest.wait_for_frame([&](const auto& frame) { return frame.stamp.frame == paused + 3; }));
+  EXPECT_EQ(guest.ask(R"({"op":"ping","id":3,"t":1.5})", 3).at("f"), paused + 3);
+  EXPECT_EQ(guest.ask(R"({"op":"reset","id":4})", 4).at("f"), 0);
+  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.epoch == 2; }));
+  EXPECT_EQ(guest.reader.frames.back().stamp.frame, 0U);
+}
+
+TEST(HostOfScenes, TakesAViewerFromSceneToScene) {
+  Host host;
+  host.add(hung_cloth("first"));
+  host.add(hung_cloth("second"));
+  Guest guest(host, "first");
+  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 3; }));
+  const json list = guest.ask(R"({"op":"scene.list","id":1})", 1).at("scenes");
+  EXPECT_EQ(list, json({{{"name", "first"}, {"title", "A cloth"}, {"viewers", 1}, {"cloths", 1}},
+                        {{"name", "second"}, {"title", "A cloth"}, {"viewers", 0}, {"cloths", 1}}}));
+  EXPECT_EQ(guest.ask(R"({"op":"scene.join","id":2,"scene":"third"})", 2).at("path"), "/scene");
+  EXPECT_EQ(guest.ask(R"({"op":"scene.join","id":3,"scene":"second"})", 3).at("op"), "ok");
+  ASSERT_TRUE(guest.reader.wait_until([&] { return guest.reader.last("scene").at("name") == "second"; }));
+  EXPECT_EQ(host.find("first")->viewers(), 0);
+  EXPECT_EQ(host.find("second")->viewers(), 1);
+  // `ok` stands before `scene`.
+  std::vector<std::string> order;
+  for (const json& text : guest.reader.texts) {
+    if (text.value("re", 0) == 3 || text.value("name", "") == "second") order.push_back(text.at("op"));
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"ok", "scene"}));
+  EXPECT_EQ(guest.ask(R"({"op":"scene.join","id":4,"scene":"second"})", 4).at("op"), "ok");
+  EXPECT_EQ(host.find("second")->viewers(), 1);  // its own scene again: one place
+}
+
+TEST(HostOfScenes, AFullSceneHasNoPlace) {
+  protocol::Limits limits;
+  limits.viewers = 2;
+  Host host(limits);
+  host.add(hung_cloth("small"));
+  host.add(hung_cloth("other"));
+  Guest first(host, "small"), second(host, "small"), third(host, "other");
+  EXPECT_FALSE(host.find("small")->reserve());
+  EXPECT_EQ(third.ask(R"({"op":"scene.join","id":1,"scene":"small"})", 1).at("code"), "limit");
+  first.connection.reset();
+  EXPECT_EQ(third.ask(R"({"op":"scene.join","id":2,"scene":"small"})", 2).at("op"), "ok");
+}
+
+TEST(HostOfScenes, TooManyMessagesAreDroppedButAcknowledgementsCount) {
+  Host host;
+  host.add(hung_cloth());
+  Guest guest(host, "hung");
+  EXPECT_EQ(guest.ask(R"({"op":"hello","id":1,"caps":["flow.ack","else"],"window":1})", 1).at("caps"),
+            json({"flow.ack"}));
+  const auto now = std::chrono::steady_clock::now();
+  int dropped = 0;
+  for (int i = 2; i <= 400; ++i) {
+    dropped += !guest.connection->receive(R"({"op":"ping","id":)" + std::to_string(i) + R"(,"t":0})", now);
+    guest.reader.drain();
+  }
+  EXPECT_GE(dropped, 399 - 121);  // 120 a second; one more may have been regained since the start
+  guest.reader.drain();
+  EXPECT_EQ(guest.reader.reply(400).at("code"), "rate");
+  // In spite of that the frames go on as long as each is acknowledged.
+  for (int i = 0; i < 5; ++i) {
+    const auto frames = guest.reader.frames.size();
+    ASSERT_TRUE(guest.reader.wait_until([&] { return guest.reader.frames.size() > frames; }));
+    const auto f = guest.reader.frames.back().stamp.frame;
+    EXPECT_TRUE(guest.connection->receive(R"({"op":"ack","f":)" + std::to_string(f) + "}", now));
+  }
+}
+
+TEST(HostOfScenes, MalformedMessagesAreAnsweredAndHarmless) {
+  Host host;
+  host.add(hung_cloth());
+  Guest guest(host, "hung");
+  const json error = guest.ask(R"({"op":"wind.set","id":7,"direction":[1,0,0],"speed":1000})", 7);
+  EXPECT_EQ(error.at("code"), "range");
+  EXPECT_EQ(error.at("path"), "/speed");
+  EXPECT_EQ(guest.ask(R"({"op":"ping","id":8,"t":1})", 8).at("op"), "pong");
+}
+
+TEST(HostOfScenes, SlowsTheClockWhenStepsTakeTooLong) {
+  scene::Scene heavy = hung_cloth("heavy");
+  heavy.camera_distance = 0.5;                                          // level 6
+  heavy.simulation.integrator = SymplecticEulerDescription{5000, 0.9};  // some 50 ms a step, of 16.7 ms
+  Host host;
+  host.add(heavy);
+  Guest guest(host, "heavy");
+  ASSERT_TRUE(guest.reader.wait_until([&] { return !guest.reader.last("notice", "slow").is_null(); }));
+  ASSERT_TRUE(
+      guest.wait_for_frame([](const auto& frame) { return (frame.stamp.flags & protocol::kFlagSlow) != 0; }));
+  ASSERT_TRUE(guest.reader.wait_until([&] {
+    const json stats = guest.reader.last("stats");
+    return !stats.is_null() && stats.at("rate") < 0.9;
+  }));
+}
+
+TEST(HostOfScenes, TwoScenesOfOneNameAreRefused) {
+  Host host;
+  host.add(hung_cloth());
+  EXPECT_THROW(host.add(hung_cloth()), std::invalid_argument);
+}
+
+/// Many clients at once, each on a thread of its own, coming, commanding and going. What is checked is that
+/// every frame can be decoded and every request is answered; the thread sanitizer checks the rest.
+TEST(HostOfScenes, StandsACrowd) {
+  constexpr int kClients = 6, kRounds = 4, kRequests = 40;
+  Host host;
+  host.add(hung_cloth("a"));
+  host.add(hung_cloth("b"));
+  std::vector<std::jthread> clients;
+  std::atomic<int> unanswered = 0;
+  for (int client = 0; client < kClients; ++client) {
+    clients.emplace_back([&, client] {
+      std::mt19937 random(static_cast<unsigned>(client));
+      const std::vector<std::string> requests{
+          R"("op":"camera","distance":0.5)",
+          R"("op":"camera","eye":[0,0,20])",
+          R"("op":"ball.add","position":[0,0,1],"radius":0.1,"velocity":[0,0,-2])",
+          R"("op":"ball.throw","ball":1,"velocity":[0,1,-1])",
+          R"("op":"ball.remove","ball":2)",
+          R"("op":"wind.set","direction":[0,1,-1],"speed":4)",
+          R"("op":"pause")",
+          R"("op":"step","count":2)",
+          R"("op":"resume")",
+          R"("op":"reset")",
+          R"("op":"scene.join","scene":"a")",
+          R"("op":"scene.join","scene":"b")",
+          R"("op":"scene.list")",
+          R"("op":"hello","caps":["flow.ack"],"window":8)",
+          R"("op":"nonsense")"};
+      for (int round = 0; round < kRounds; ++round) {
+        Guest guest(host, client % 2 ? "a" : "b");
+        for (int id = 1; id <= kRequests; ++id) {
+          guest.say("{" + requests[random() % requests.size()] + ",\"id\":" + std::to_string(id) + "}");
+          guest.reader.drain();
+          for (const auto& frame : guest.reader.frames) {
+            guest.say(R"({"op":"ack","f":)" + std::to_string(frame.stamp.frame) + "}");
+          }
+          guest.reader.frames.clear();
+        }
+        for (int id = 1; id <= kRequests; ++id) {
+          if (!guest.reader.wait_until([&] { return !guest.reader.reply(id).is_null(); })) ++unanswered;
+        }
+      }
+    });
+  }
+  clients.clear();  // joins
+  EXPECT_EQ(unanswered, 0);
+  EXPECT_EQ(host.find("a")->viewers() + host.find("b")->viewers(), 0);
+}
+
+}  // namespace
+}  // namespace weft::host::test

@@ -1,0 +1,112 @@
+/// The parts of the network that need no socket.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "net/client.h"
+#include "net/origin.h"
+#include "net/static_files.h"
+
+namespace weft::net {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Origin, OwnPagesThisMachineAndScriptsMay) {
+  EXPECT_TRUE(origin_allowed("", "weft.example:8080", {}));
+  EXPECT_TRUE(origin_allowed("http://weft.example:8080", "weft.example:8080", {}));
+  EXPECT_TRUE(origin_allowed("https://WEFT.example", "weft.example", {}));
+  EXPECT_TRUE(origin_allowed("http://localhost:3000", "weft.example", {}));
+  EXPECT_TRUE(origin_allowed("http://127.0.0.1", "weft.example", {}));
+  EXPECT_TRUE(origin_allowed("http://[::1]:8080", "weft.example", {}));
+}
+
+TEST(Origin, OthersMayNot) {
+  for (const char* origin :
+       {"http://evil.example", "http://weft.example.evil.example:8080", "http://evil.example/localhost",
+        "http://localhost.evil.example", "http://localhost@evil.example", "http://127.0.0.1.evil.example",
+        "null", "file://", "http://", "localhost", "http://weft.example:8081", "ftp://weft.example:8080",
+        "http:///"}) {
+    EXPECT_FALSE(origin_allowed(origin, "weft.example:8080", {})) << origin;
+  }
+}
+
+TEST(Origin, ThoseListedMay) {
+  const std::vector<std::string> listed{"https://show.example"};
+  EXPECT_TRUE(origin_allowed("https://show.example", "weft.example", listed));
+  EXPECT_FALSE(origin_allowed("http://show.example", "weft.example", listed));
+  EXPECT_FALSE(origin_allowed("https://show.example:444", "weft.example", listed));
+  EXPECT_TRUE(origin_allowed("null", "weft.example", {"*"}));
+}
+
+TEST(PathOfTarget, NamesFilesBelowTheRoot) {
+  EXPECT_EQ(path_of_target("/"), "index.html");
+  EXPECT_EQ(path_of_target("/?server=x"), "index.html");
+  EXPECT_EQ(path_of_target("/main.js?v=1"), "main.js");
+  EXPECT_EQ(path_of_target("/three/build/three.module.js"), "three/build/three.module.js");
+  EXPECT_EQ(path_of_target("/a%20b.js"), "a b.js");
+  EXPECT_EQ(path_of_target("/sub/"), "sub/index.html");
+}
+
+TEST(PathOfTarget, NeverLeadsOutOfIt) {
+  for (const char* target :
+       {"/../etc/passwd", "/..", "/a/../../b", "/%2e%2e/etc/passwd", "/%2E%2e%2fetc/passwd", "/..%2f..",
+        "/.git/config", "/./a", "/a//b", "//etc/passwd", "/a%00.js", "/a%", "/a%2", "/a%zz", "/..\\..\\a",
+        "index.html", "", "http://host/", "*"}) {
+    EXPECT_FALSE(path_of_target(target).has_value()) << target;
+  }
+}
+
+TEST(StaticFiles, AreReadAgainWhenTheyChange) {
+  const fs::path root = fs::path(::testing::TempDir()) / "weft_static_files";
+  fs::create_directories(root);
+  const auto write = [&](const std::string& content) {
+    std::ofstream(root / "page.js", std::ios::trunc) << content;
+  };
+  write("one");
+  StaticFiles files(root);
+  const auto first = files.find("/page.js");
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first->content, "one");
+  EXPECT_EQ(first->media_type, "text/javascript; charset=utf-8");
+  EXPECT_EQ(files.find("/page.js")->content.get(), first->content.get());  // from memory
+  write("three");
+  fs::last_write_time(root / "page.js", fs::last_write_time(root / "page.js") + std::chrono::seconds(1));
+  const auto second = files.find("/page.js");
+  EXPECT_EQ(*second->content, "three");
+  EXPECT_NE(second->etag, first->etag);
+  EXPECT_FALSE(files.find("/none.js"));
+  EXPECT_FALSE(files.find("/"));  // no index.html
+  fs::remove_all(root);
+}
+
+TEST(MediaType, IsWhatBrowsersNeed) {
+  // Modules and WebAssembly are refused by browsers under any other type (HTML and WebAssembly standards).
+  EXPECT_EQ(media_type("a.js"), "text/javascript; charset=utf-8");
+  EXPECT_EQ(media_type("a.wasm"), "application/wasm");
+  EXPECT_EQ(media_type("a.json"), "application/json");
+  EXPECT_EQ(media_type("a.unknown"), "application/octet-stream");
+}
+
+TEST(Url, IsTakenApart) {
+  const Url full = Url::parse("ws://127.0.0.1:8080/v1/scenes/flag");
+  EXPECT_EQ(full.host, "127.0.0.1");
+  EXPECT_EQ(full.port, "8080");
+  EXPECT_EQ(full.target, "/v1/scenes/flag");
+  const Url bare = Url::parse("http://weft.example");
+  EXPECT_EQ(bare.port, "80");
+  EXPECT_EQ(bare.target, "/");
+  EXPECT_EQ(Url::parse("http://[::1]:81/").host, "[::1]");
+  EXPECT_EQ(Url::parse("http://[::1]").port, "80");
+}
+
+TEST(Url, OthersAreRefused) {
+  for (const char* text :
+       {"", "flag", "wss://a/", "http://", "http://:80/", "ws://a:b/", "ws://a:/", "ws://a:123456/"}) {
+    EXPECT_THROW(Url::parse(text), std::invalid_argument) << text;
+  }
+}
+
+}  // namespace
+}  // namespace weft::net

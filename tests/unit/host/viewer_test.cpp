@@ -1,0 +1,130 @@
+#include "host/viewer.h"
+
+#include <gtest/gtest.h>
+
+namespace weft::host {
+namespace {
+
+std::shared_ptr<const FrameMessage> frame(std::uint32_t number) {
+  auto message = std::make_shared<FrameMessage>();
+  message->frame = number;
+  return message;
+}
+
+Text text(const std::string& words) { return std::make_shared<const std::string>(words); }
+
+/// The number of the next frame to be sent, -1 if nothing may be.
+int next_frame(Viewer& viewer) {
+  const auto next = viewer.take();
+  return next && next->frame ? static_cast<int>(next->frame->frame) : -1;
+}
+
+TEST(Viewer, KeepsTheNewestFrameOnly) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  for (std::uint32_t f = 1; f <= 5; ++f) viewer.publish(visit, frame(f));
+  EXPECT_EQ(next_frame(viewer), 5);
+  EXPECT_EQ(next_frame(viewer), -1);
+  EXPECT_EQ(viewer.dropped(), 4U);
+}
+
+TEST(Viewer, ControlComesInOrderAndBeforeFrames) {
+  Viewer viewer;
+  viewer.publish(viewer.enter(), frame(1));
+  viewer.send(text("a"));
+  viewer.send(text("b"));
+  EXPECT_EQ(*viewer.take()->text, "a");
+  EXPECT_EQ(*viewer.take()->text, "b");
+  EXPECT_EQ(next_frame(viewer), 1);
+}
+
+TEST(Viewer, WindowBoundsTheUnacknowledged) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  viewer.enable_acks(2);
+  for (std::uint32_t f = 1; f <= 2; ++f) {
+    viewer.publish(visit, frame(f));
+    EXPECT_EQ(next_frame(viewer), static_cast<int>(f));
+  }
+  viewer.publish(visit, frame(3));
+  EXPECT_EQ(next_frame(viewer), -1);
+  viewer.publish(visit, frame(4));
+  EXPECT_TRUE(viewer.acknowledge(1));
+  EXPECT_EQ(next_frame(viewer), 4);    // 3 was replaced while it waited
+  EXPECT_TRUE(viewer.acknowledge(4));  // and with it 2
+  for (std::uint32_t f = 5; f <= 6; ++f) {
+    viewer.publish(visit, frame(f));
+    EXPECT_EQ(next_frame(viewer), static_cast<int>(f));
+  }
+}
+
+TEST(Viewer, AcknowledgingWhatWasNotSentChangesNothing) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  viewer.enable_acks(1);
+  viewer.publish(visit, frame(7));
+  ASSERT_EQ(next_frame(viewer), 7);
+  viewer.publish(visit, frame(8));
+  EXPECT_FALSE(viewer.acknowledge(6));
+  EXPECT_FALSE(viewer.acknowledge(8));
+  EXPECT_EQ(next_frame(viewer), -1);
+  EXPECT_TRUE(viewer.acknowledge(7));
+  EXPECT_EQ(next_frame(viewer), 8);
+}
+
+TEST(Viewer, ASceneLeftBehindSendsNothingMore) {
+  Viewer viewer;
+  const auto before = viewer.enter();
+  viewer.enable_acks(1);
+  viewer.publish(before, frame(100));
+  ASSERT_EQ(next_frame(viewer), 100);
+  viewer.publish(before, frame(101));
+  const auto now = viewer.enter();
+  viewer.publish(before, frame(102));
+  viewer.send(before, text("of the scene before"));
+  EXPECT_FALSE(viewer.take());
+  viewer.publish(now, frame(1));
+  EXPECT_EQ(next_frame(viewer), 1);  // although 100 was never acknowledged
+}
+
+TEST(Viewer, WakesOnceThereIsSomethingToSend) {
+  Viewer viewer;
+  int wakes = 0;
+  viewer.on_wake([&] { ++wakes; });
+  const auto visit = viewer.enter();
+  viewer.publish(visit, frame(1));
+  EXPECT_EQ(wakes, 0);  // nobody has asked yet
+  ASSERT_EQ(next_frame(viewer), 1);
+  EXPECT_FALSE(viewer.take());
+  viewer.publish(visit, frame(2));
+  viewer.publish(visit, frame(3));
+  viewer.send(text("a"));
+  EXPECT_EQ(wakes, 1);  // until it is asked again
+}
+
+TEST(Viewer, AFrameBeyondTheWindowWakesWhenItIsAcknowledged) {
+  Viewer viewer;
+  int wakes = 0;
+  viewer.on_wake([&] { ++wakes; });
+  const auto visit = viewer.enter();
+  viewer.enable_acks(1);
+  viewer.publish(visit, frame(1));
+  ASSERT_EQ(next_frame(viewer), 1);
+  EXPECT_FALSE(viewer.take());
+  viewer.publish(visit, frame(2));
+  EXPECT_EQ(wakes, 0);
+  viewer.acknowledge(1);
+  EXPECT_EQ(wakes, 1);
+  EXPECT_EQ(next_frame(viewer), 2);
+}
+
+TEST(Viewer, OverflowsWhenMoreThan256ControlMessagesWait) {
+  Viewer viewer;
+  for (int i = 0; i < 256; ++i) viewer.send(text("x"));
+  EXPECT_FALSE(viewer.overflowed());  // PROTOCOL.md section 6: more than 256
+  viewer.send(text("x"));
+  EXPECT_TRUE(viewer.overflowed());
+}
+
+}  // namespace
+}  // namespace weft::host
