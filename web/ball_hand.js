@@ -27,20 +27,25 @@ export class BallHand {
     this.canvas.addEventListener('pointercancel', (event) => this.#release(event, false));
   }
 
-  #aim(event) {
+  /** The newest record of the ball drawn at a point of the window, or undefined. */
+  ballAt(x, y) {
+    return this.#hit(x, y)?.object.userData.ball;
+  }
+
+  #aim(x, y) {
     const box = this.canvas.getBoundingClientRect();
-    const point = new Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
     this.raycaster.setFromCamera(point, this.stage.camera);
   }
 
-  #hit(event) {
-    this.#aim(event);
+  #hit(x, y) {
+    this.#aim(x, y);
     return this.raycaster.intersectObjects(this.balls.group.children, false)[0] ?? null;
   }
 
   #take(event) {
     if (event.button !== 0 || this.drag) return;
-    const hit = this.#hit(event);
+    const hit = this.#hit(event.clientX, event.clientY);
     if (!hit) return;
     const {ball} = hit.object.userData;
     const facing = this.stage.camera.getWorldDirection(new Vector3());
@@ -62,11 +67,11 @@ export class BallHand {
 
   #move(event) {
     if (!this.drag) {
-      if (event.pointerType === 'mouse') this.canvas.style.cursor = event.buttons === 0 && this.#hit(event) ? 'grab' : '';
+      if (event.pointerType === 'mouse') this.canvas.style.cursor = event.buttons === 0 && this.#hit(event.clientX, event.clientY) ? 'grab' : '';
       return;
     }
     if (event.pointerId !== this.drag.pointer) return;
-    this.#aim(event);
+    this.#aim(event.clientX, event.clientY);
     const point = this.raycaster.ray.intersectPlane(this.drag.plane, new Vector3());
     if (!point) return;  // the plane is behind the camera
     const position = point.add(this.drag.offset).toArray();

@@ -28,6 +28,7 @@ function start(settings) {
   const show = new Show(stage, {instant, wireframe: settings.wireframe, high: settings.high});
   const link = new Link();
   const counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
+  const latest = {stats: null};
   let sceneShown = null;     // whose camera place was taken: a reconnection keeps the viewer's own
   let chosenBall = null;
   let retryAt = null;
@@ -76,12 +77,13 @@ function start(settings) {
   let scenes = [];
   const panel = new Panel(actions);
   panel.setWireframe(settings.wireframe);
-  new BallHand(stage, show.balls, {
+  const hand = new BallHand(stage, show.balls, {
     move: actions.moveBall,
     throw: (ball, velocity) => command({op: 'ball.throw', ball, velocity}),
     taken: choose,
     holding: (holds) => (rig.controls.enabled = !holds),
   });
+  new ResizeObserver(() => stage.setInsets(...panel.covers())).observe(document.getElementById('controls'));
   listenToKeys(rig, {
     'w': () => actions.setWireframe(!show.wireframe),
     ' ': () => link.connected && actions.setPaused(!panel.paused),
@@ -145,7 +147,10 @@ function start(settings) {
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
       if (message.kind === 'reset') hud.showNotice(null);
     },
-    stats: (message) => hud.showStats(message, nearest()?.cloth ?? 0),
+    stats: (message) => {
+      latest.stats = message;
+      hud.showStats(message, nearest()?.cloth ?? 0);
+    },
     notice: (message) => {
       if (message.code === 'real_time') hud.showNotice(null);
       else hud.showNotice(message.message);
@@ -169,6 +174,7 @@ function start(settings) {
   function draw(nowMs) {
     requestAnimationFrame(draw);
     show.update(nowMs, performance.timeOrigin + nowMs);
+    rig.update(nowMs);
     const levels = show.levels(rig.eye);
     if (levels.length > 0) {
       rig.setCentre(levels[0].centre);
@@ -176,7 +182,6 @@ function start(settings) {
       hud.showClock(show.stamp.time);
       if (link.connected) eye.update(rig.eye, nowMs);
     }
-    rig.update(nowMs);
     showBalls();
     showWaiting(nowMs);
     showRates(nowMs);
@@ -207,7 +212,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, counts});
+  publishHook({link, show, rig, stage, hand, counts, latest});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -220,7 +225,7 @@ function aimed(from, to, speed) {
 }
 
 /** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, counts}) {
+function publishHook({link, show, rig, stage, hand, counts, latest}) {
   window.weft = {
     get stats() {
       return {
@@ -230,8 +235,11 @@ function publishHook({link, show, rig, stage, counts}) {
         cloths: show.levels(rig.eye),
         balls: show.balls.ids.map((id) => show.balls.ball(id)),
         distance: rig.distance,
+        eye: rig.eye,
+        settled: !show.moving && !stage.changed && !rig.flight,
         lastFrame: show.timeline.newest?.stamp ?? null,
         wind: show.wind,
+        server: latest.stats,
       };
     },
     /** Newest decoded positions of a cloth, as plain numbers. */
@@ -242,6 +250,8 @@ function publishHook({link, show, rig, stage, counts}) {
     setCameraDistance(distance) {
       rig.goTo(distance);
     },
+    /** The ball drawn at a point of the page, or null. */
+    ballAt: (x, y) => hand.ballAt(x, y)?.ball ?? null,
     /** Where a point of the scene is on the page, CSS pixels. */
     toPage([x, y, z]) {
       const point = stage.camera.position.clone().set(x, y, z).project(stage.camera);

@@ -105,6 +105,13 @@ export class Panel {
     }
   }
 
+  /** @returns {[number, number]} what the panel covers of the window's right and bottom, CSS pixels */
+  covers() {
+    const box = byId('controls').getBoundingClientRect();
+    if (box.width > innerWidth / 2) return [0, innerHeight - box.top];  // a phone: it lies along the bottom
+    return [box.height > innerHeight / 2 ? innerWidth - box.left : 0, 0];
+  }
+
   #chosenBall() {
     return Number(byId('ball').value);
   }

@@ -1,5 +1,6 @@
 import {BallsView} from './balls_view.js';
 import {ClothView, clothMaterials} from './cloth_view.js';
+import {Loupe} from './loupe.js';
 import {Timeline} from './timeline.js';
 import {weaveTextures} from './weave.js';
 import {WindArrow} from './wind_arrow.js';
@@ -22,7 +23,8 @@ export class Show {
     this.timeline = new Timeline();
     this.balls = new BallsView();
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
-    stage.overlays.push(this.arrow);
+    this.loupe = new Loupe(document.getElementById('loupe'), stage);
+    stage.overlays.push(this.loupe, this.arrow);
     this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
     stage.scene.add(this.balls.group);
     /** @type {Map<number, ClothView>} */
@@ -99,7 +101,8 @@ export class Show {
       .filter((view) => view.record)
       .map((view) => ({
         cloth: view.id, name: view.name, level: view.record.level, simulatedLevel: view.record.simulatedLevel,
-        rows: view.record.rows, cols: view.record.cols, centre: view.centre, distance: distanceTo(eye, view.centre),
+        rows: view.record.rows, cols: view.record.cols, quantum: view.record.quantum,
+        centre: view.centre, distance: distanceTo(eye, view.centre),
       }))
       .sort((a, b) => a.distance - b.distance);
   }
@@ -113,22 +116,20 @@ export class Show {
   /** Ground and light: set once a scene; the ground then gives way to a cloth that comes lower. */
   #arrange(first) {
     let low = Infinity, extent = 0;
-    for (const view of this.cloths.values()) {
-      if (!view.record) continue;
+    const views = [...this.cloths.values()].filter((view) => view.record);
+    if (views.length === 0) return;
+    for (const view of views) {
       low = Math.min(low, view.lowest());
       extent = Math.max(extent, ...view.size);
     }
-    if (extent === 0) return;
+    const {centre} = views[0];
+    this.loupe.lookAt(centre, extent);
+    if (!first) return this.stage.keepGroundBelow(low);
+    // Balls count only at the start: a thrown one falls for ever.
     for (const id of this.balls.ids) {
       const {position, radius} = this.balls.ball(id);
-      // A thrown ball falls for ever: only those near the cloth count.
-      if (first) low = Math.min(low, position[1] - radius);
+      low = Math.min(low, position[1] - radius);
     }
-    const {centre} = this.cloths.values().next().value;
-    if (first) {
-      this.stage.frame(centre, extent, low - 0.25 * extent);
-    } else if (low < this.stage.groundHeight + 0.02) {
-      this.stage.lowerGroundTo(low - 0.02);
-    }
+    this.stage.frame(centre, extent, low - 0.25 * extent);
   }
 }

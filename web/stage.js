@@ -4,10 +4,11 @@ import {
 } from './three/three.module.js';
 
 const kThemes = {
-  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xb8ada0, ambient: 1.9, shadow: 0.22},
+  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, shadow: 0.22},
   dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, shadow: 0.5},
 };
 const kGroundMetres = 40;
+const kGroundGap = 0.02;  // m, to the lowest thing above it
 
 /** Renderer, camera, lights and ground: everything that is there before the first cloth. */
 export class Stage {
@@ -21,11 +22,13 @@ export class Stage {
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.shadowMap.enabled = settings.high;
     this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
     /** How many samples slanted textures may cost. */
     this.anisotropy = settings.high ? Math.min(8, this.renderer.capabilities.getMaxAnisotropy()) : 1;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(42, 1, 0.02, 200);
     this.changed = true;  // something to draw
+    this.insets = {right: 0, bottom: 0};
     /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
     this.overlays = [];
     this.#addLights();
@@ -46,27 +49,33 @@ export class Stage {
     camera.updateProjectionMatrix();
     this.ground.position.set(x, height, z);
     this.grid.position.set(Math.round(x), height - 0.001, Math.round(z));
+    this.lowestGround = height - 3 * extent;
     this.changed = true;
   }
 
-  get groundHeight() {
-    return this.ground.position.y;
+  /** The ground gives way to what comes lower than it, but not without end: a cloth may fall. */
+  keepGroundBelow(height) {
+    if (height > this.ground.position.y + kGroundGap || height < this.lowestGround) return;
+    this.ground.position.y = height - kGroundGap;
+    this.grid.position.y = this.ground.position.y - 0.001;
   }
 
-  lowerGroundTo(height) {
-    this.ground.position.y = height;
-    this.grid.position.y = height - 0.001;
+  /** Parts of the canvas that lie under panels, CSS pixels: what is looked at stands in the middle of the rest. */
+  setInsets(right, bottom) {
+    this.insets = {right, bottom};
+    this.#resize();
   }
 
   draw() {
     this.changed = false;
+    this.renderer.shadowMap.needsUpdate = true;  // once, for the overlays too
     this.renderer.render(this.scene, this.camera);
     for (const overlay of this.overlays) overlay.draw(this.renderer, this.camera);
   }
 
   #addLights() {
     this.ambient = new HemisphereLight();
-    this.key = new DirectionalLight(0xfff3e0, 3.0);
+    this.key = new DirectionalLight(0xfff3e0, 2.7);
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(2048, 2048);
     this.key.shadow.normalBias = 0.012;
@@ -75,7 +84,12 @@ export class Stage {
     // A faint light from behind, so that the far side of a fold is not a hole.
     this.rim = new DirectionalLight(0xbcd0ff, 0.7);
     this.rim.position.set(-3, 1.5, -4);
-    this.scene.add(this.ambient, this.key, this.key.target, this.rim);
+    // And one that goes with the viewer: what is looked at is never black.
+    this.head = new DirectionalLight(0xffffff, 0.7);
+    this.camera.add(this.head, this.head.target);
+    this.head.target.position.set(0, 0, -1);
+    this.head.position.set(0, 0, 0);
+    this.scene.add(this.ambient, this.key, this.key.target, this.rim, this.camera);
   }
 
   #addGround() {
@@ -111,7 +125,8 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    const {right, bottom} = this.insets;
+    this.camera.setViewOffset(clientWidth, clientHeight, right / 2, bottom / 2, clientWidth, clientHeight);
     this.changed = true;
   }
 }

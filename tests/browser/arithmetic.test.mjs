@@ -1,0 +1,188 @@
+// The page's arithmetic: plain modules without a browser.
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, triangleIndices} from '../../web/grid.js';
+import {Morph} from '../../web/morph.js';
+import {addressOfScene, readSettings} from '../../web/settings.js';
+import {ThrowSpeed} from '../../web/throw_speed.js';
+import {Timeline} from '../../web/timeline.js';
+import {anglesOf, directionOf} from '../../web/wind_angles.js';
+
+/** A flat hanging sheet of `cells` x `cells`, 1 m wide, its top left corner at the origin. */
+function sheet(cells, z = 0) {
+  const rows = cells + 1;
+  const positions = new Float32Array(rows * rows * 3);
+  for (let r = 0; r < rows; ++r) {
+    for (let c = 0; c < rows; ++c) positions.set([c / cells, -r / cells, z], (r * rows + c) * 3);
+  }
+  return {positions, rows, cols: rows};
+}
+
+const frame = (serverMs, extra = {}) => ({stamp: {serverMs, epoch: 1, ...extra}});
+const near = (actual, expected, tolerance = 1e-9) =>
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected} within ${tolerance}`);
+
+test('a cell is two triangles, counter-clockwise from the front', () => {
+  assert.deepEqual([...triangleIndices(2, 2)], [0, 2, 1, 1, 2, 3]);
+  assert.equal(triangleIndices(65, 65).length, 64 * 64 * 6);
+});
+
+test('the wireframe has every side of every cell once', () => {
+  // 3 rows of 1 side and 2 columns of 2 sides.
+  assert.deepEqual([...sideIndices(3, 2)], [0, 1, 0, 2, 1, 3, 2, 3, 2, 4, 3, 5, 4, 5]);
+});
+
+test('material coordinates are metres, v upwards', () => {
+  assert.deepEqual([...materialCoordinates(2, 2, 1.5, 1)], [0, 1, 1.5, 1, 0, 0, 1.5, 0]);
+});
+
+test('a sheet in the x-y plane faces +z', () => {
+  const {positions, rows, cols} = sheet(2);
+  const normals = gridNormals(positions, rows, cols, new Float32Array(positions.length));
+  for (let at = 0; at < normals.length; at += 3) assert.deepEqual([...normals.slice(at, at + 3)], [0, 0, 1]);
+});
+
+test('a normal of nodes that coincide is no NaN', () => {
+  const normals = gridNormals(new Float32Array(12), 2, 2, new Float32Array(12));
+  assert.ok(normals.every((value) => value === 0));
+});
+
+test('split keeps shared nodes and puts new ones in the middle (Eq. 8)', () => {
+  const coarse = {positions: Float32Array.of(0, 0, 0, 2, 0, 0, 0, -2, 0, 2, -2, 4), rows: 2, cols: 2};
+  const fine = split(coarse.positions, 2, 2);
+  const node = (r, c) => [...fine.positions.slice((r * 3 + c) * 3, (r * 3 + c) * 3 + 3)];
+  assert.deepEqual([fine.rows, fine.cols], [3, 3]);
+  assert.deepEqual(node(0, 0), [0, 0, 0]);
+  assert.deepEqual(node(2, 2), [2, -2, 4]);
+  assert.deepEqual(node(0, 1), [1, 0, 0]);
+  assert.deepEqual(node(2, 1), [1, -2, 2]);
+  assert.deepEqual(node(1, 1), [1, -1, 1]);  // mean of the four corners
+});
+
+test('splitting a flat sheet gives the finer flat sheet; not splitting gives the same object', () => {
+  const coarse = sheet(16);
+  assert.deepEqual(splitTo(coarse, 65).positions, sheet(64).positions);
+  assert.equal(splitTo(coarse, 17), coarse);
+});
+
+test('mix and centre', () => {
+  assert.deepEqual([...mix([0, 10], [4, 20], 0.25, new Float32Array(2))], [1, 12.5]);
+  assert.deepEqual(centreOf(sheet(2, 3).positions), [0.5, -0.5, 3]);
+});
+
+test('a change of level begins where the cloth was shown and ends where it is sent', () => {
+  for (const [from, to] of [[16, 32], [32, 16], [16, 64], [64, 16]]) {
+    const morph = new Morph();
+    morph.update(sheet(from, 0), sheet(from, 0), 1, 0);
+    const start = morph.update(sheet(to, 1), sheet(to, 1), 1, 1000);
+    assert.equal(start.rows, Math.max(from, to) + 1);  // on the finer grid
+    assert.ok(start.positions.every((value, i) => i % 3 !== 2 || value === 0), 'starts at z = 0');
+    assert.ok(morph.active);
+    const middle = morph.update(sheet(to, 1), sheet(to, 1), 1, 1125);
+    near(middle.positions[2], 0.5);  // half of 250 ms, and the ease is symmetric
+    const end = morph.update(sheet(to, 1), sheet(to, 1), 1, 1250);
+    assert.equal(end.rows, to + 1);
+    assert.equal(end.positions[2], 1);
+    assert.ok(!morph.active);
+  }
+});
+
+test('a change of level is instant for who prefers reduced motion', () => {
+  const morph = new Morph(true);
+  morph.update(sheet(64), sheet(64), 1, 0);
+  assert.equal(morph.update(sheet(16, 1), sheet(16, 1), 1, 1).rows, 17);
+  assert.ok(!morph.active);
+});
+
+test('the timeline shows a frame interval late, between the two frames around that moment', () => {
+  const timeline = new Timeline();
+  // The server's clock at 0, 20, ..; each message takes 5 ms more on the local clock, which is 1000 ahead.
+  for (let i = 0; i <= 10; ++i) timeline.push(frame(5_000 + 20 * i), 1_005 + 20 * i);
+  const moment = timeline.sample(1_205 + timeline.delayMs - 10);  // 10 ms before the last frame is due
+  assert.equal(moment.before.stamp.serverMs, 5_180);
+  assert.equal(moment.after.stamp.serverMs, 5_200);
+  near(moment.share, 0.5, 0.02);  // the drift allowance moves it by 0.02 ms a frame
+  assert.ok(timeline.delayMs > 15 && timeline.delayMs < 25);
+});
+
+test('the timeline never goes beyond the newest frame', () => {
+  const timeline = new Timeline();
+  timeline.push(frame(0), 0);
+  timeline.push(frame(16), 16);
+  const moment = timeline.sample(10_000);
+  assert.equal(moment.share, 1);
+  assert.ok(moment.settled);
+});
+
+test('the timeline crosses the wrap of the 32-bit clock', () => {
+  const timeline = new Timeline();
+  timeline.push(frame(2 ** 32 - 10), 0);
+  timeline.push(frame(10), 20);
+  const {before, after, share} = timeline.sample(10 + timeline.delayMs);
+  assert.equal(before.stamp.serverMs, 2 ** 32 - 10);
+  assert.equal(after.stamp.serverMs, 10);
+  near(share, 0.5, 0.01);
+});
+
+test('two epochs are never mixed', () => {
+  const timeline = new Timeline();
+  timeline.push(frame(0), 0);
+  timeline.push(frame(20, {epoch: 2}), 20);
+  const {before, after} = timeline.sample(21);
+  assert.equal(before.stamp.epoch, 2);
+  assert.equal(after.stamp.epoch, 2);
+});
+
+test('the timeline keeps few frames when the page does not draw', () => {
+  const timeline = new Timeline();
+  for (let i = 0; i < 1000; ++i) timeline.push(frame(20 * i), 20 * i);
+  assert.ok(timeline.entries.length <= 6);
+});
+
+test('a throw is the speed of the last tenth of a second', () => {
+  const speed = new ThrowSpeed();
+  speed.add([0, 0, 0], 0);       // rested here
+  speed.add([0, 0, 0], 1000);
+  for (let i = 1; i <= 10; ++i) speed.add([0.04 * i, 0, 0], 1000 + 20 * i);  // 2 m/s
+  const [x, y, z] = speed.velocity(1205, 25);
+  near(x, 2);
+  assert.deepEqual([y, z], [0, 0]);
+});
+
+test('a hand that rests before letting go does not throw, and no throw is faster than allowed', () => {
+  const speed = new ThrowSpeed();
+  speed.add([0, 0, 0], 0);
+  speed.add([3, 4, 0], 50);  // 100 m/s
+  assert.deepEqual(speed.velocity(500, 25), [0, 0, 0]);
+  const capped = speed.velocity(60, 25);
+  near(capped[0], 15, 1e-6);
+  near(capped[1], 20, 1e-6);
+  assert.deepEqual(new ThrowSpeed().velocity(0, 25), [0, 0, 0]);
+});
+
+test('wind by heading and upward angle, and back', () => {
+  const cases = [[[0, 0, -1], 0, 0], [[1, 0, 0], 90, 0], [[0, 0, 1], 180, 0], [[-1, 0, 0], -90, 0], [[0, 1, 0], 0, 90]];
+  for (const [direction, heading, tilt] of cases) {
+    directionOf(heading, tilt).forEach((value, axis) => near(value, direction[axis], 1e-12));
+    assert.deepEqual(anglesOf(direction), {heading, tilt});
+  }
+  const diagonal = anglesOf([3, 0, -3]);  // need not be of unit length
+  assert.deepEqual(diagonal, {heading: 45, tilt: 0});
+});
+
+test('the address of the service: the page’s own host, or the parameter', () => {
+  const read = (text) => readSettings(new URL(text), 3);
+  assert.equal(read('http://a.example:8080/').server, 'ws://a.example:8080');
+  assert.equal(read('https://a.example/').server, 'wss://a.example');
+  assert.equal(read('http://a/?server=ws://b:9000').server, 'ws://b:9000');
+  assert.equal(read('http://a/?server=https://b/weft/').server, 'wss://b/weft');
+  assert.throws(() => read('http://a/?server=ftp://b'), /not an address like ws/);
+});
+
+test('scene and quality of the page’s address', () => {
+  const plain = readSettings(new URL('http://a/'), 3);
+  assert.deepEqual([plain.scene, plain.high, plain.pixelRatio, plain.wireframe], [null, true, 2, false]);
+  const low = readSettings(new URL('http://a/?scene=flag&quality=low&wireframe=1'), 3);
+  assert.deepEqual([low.scene, low.high, low.pixelRatio, low.wireframe], ['flag', false, 1, true]);
+  assert.equal(addressOfScene(new URL('http://a/?server=ws://b:1&scene=x'), 'y').search, '?server=ws%3A%2F%2Fb%3A1&scene=y');
+});

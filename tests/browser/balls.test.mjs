@@ -1,0 +1,142 @@
+// Balls: added, dragged into the cloth, thrown, removed; by mouse and by the controls.
+import assert from 'node:assert/strict';
+import {before, test} from 'node:test';
+import {openScene, startServer, stats, until} from './harness.mjs';
+
+let page;
+before(async () => {
+  const server = await startServer(['zheng2020-distance']);
+  ({page} = await openScene(server, 'zheng2020-distance'));
+  await page.keyboard.press('2');
+});
+
+const firstBall = async () => (await stats(page)).balls[0];
+/** Distance of the node nearest to a point, in the newest frame, m. */
+const nearestNode = (point) => page.evaluate((place) => {
+  const positions = weft.positions();
+  let least = Infinity;
+  for (let at = 0; at < positions.length; at += 3) {
+    least = Math.min(least, Math.hypot(...place.map((value, axis) => positions[at + axis] - value)));
+  }
+  return least;
+}, point);
+
+test('Add hangs a ball between camera and cloth', async () => {
+  assert.equal(await page.isDisabled('#ball-remove'), true);
+  await page.click('#ball-add');
+  await until(page, () => weft.stats.balls.length === 1);
+  const {position, radius, motion} = await firstBall();
+  assert.equal(motion, 'kinematic');
+  const {cloths: [{centre}], eye} = await stats(page);
+  const between = Math.hypot(...position.map((value, axis) => value - eye[axis]));
+  assert.ok(between < Math.hypot(...centre.map((value, axis) => value - eye[axis])), 'nearer than the cloth');
+  assert.ok(await nearestNode(position) > radius, 'off the cloth');
+});
+
+test('a ball is drawn where the frame says', async () => {
+  const {position, ball} = await firstBall();
+  const [x, y] = await page.evaluate((place) => weft.toPage(place), position);
+  assert.equal(await page.evaluate(([atX, atY]) => weft.ballAt(atX, atY), [x, y]), ball);
+  assert.equal(await page.evaluate(([atX, atY]) => weft.ballAt(atX, atY), [x + 200, y]), null);
+});
+
+test('a ball dragged by the mouse follows it', async () => {
+  const {position} = await firstBall();
+  const [x, y] = await page.evaluate((place) => weft.toPage(place), position);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 30, y - 20, {steps: 4});
+  await page.mouse.move(x + 60, y - 40, {steps: 4});
+  await until(page, ([wantedX, wantedY]) => {
+    const [atX, atY] = weft.toPage(weft.stats.balls[0].position);
+    return Math.hypot(atX - wantedX, atY - wantedY) < 3;
+  }, [x + 60, y - 40]);
+  // Let go at rest: it stays.
+  await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 150)));  // the hand's rest itself, 60 ms, is under test
+  await page.mouse.up();
+  const {lastFrame: {f}} = await stats(page);
+  await until(page, (before) => weft.stats.lastFrame.f > before + 20, f);
+  const after = await firstBall();
+  assert.equal(after.motion, 'kinematic');
+  const [endX, endY] = await page.evaluate((place) => weft.toPage(place), after.position);
+  assert.ok(Math.hypot(endX - x - 60, endY - y + 40) < 3);
+});
+
+test('dragging a ball does not turn the camera; dragging beside it does', async () => {
+  const {eye} = await stats(page);
+  await page.mouse.move(120, 420);
+  await page.mouse.down();
+  await page.mouse.move(180, 420, {steps: 4});
+  await page.mouse.up();
+  await until(page, (before) => Math.hypot(...weft.stats.eye.map((value, axis) => value - before[axis])) > 0.2, eye);
+});
+
+test('a ball in the cloth deforms it', async () => {
+  // Where a node of the cloth is now, a ball is put by its number fields, a little in front.
+  const {cloths: [{centre, rows, cols}]} = await stats(page);
+  const middle = ((rows >> 1) * cols + (cols >> 1)) * 3;
+  const node = await page.evaluate((at) => weft.positions().slice(at, at + 3), middle);
+  const place = [node[0], node[1], node[2] + 0.05].map((value) => Number(value.toFixed(2)));
+  const {radius} = await firstBall();
+  const before = await nearestNode(place);
+  assert.ok(before < 0.1, `the cloth was there: ${before} m`);
+  for (const [axis, value] of place.entries()) {
+    await page.fill(`#ball-place [data-axis="${axis}"]`, String(value));
+    await page.press(`#ball-place [data-axis="${axis}"]`, 'Enter');
+  }
+  await until(page, (wanted) => Math.hypot(...weft.stats.balls[0].position.map((value, axis) => value - wanted[axis])) < 1e-3, place);
+  const {lastFrame: {f}} = await stats(page);
+  await until(page, (start) => weft.stats.lastFrame.f > start + 5, f);
+  // No node is left inside the ball (section 2.4 of the paper): exact to the frame's quantum.
+  const quantum = await page.evaluate(() => weft.stats.cloths[0].quantum);
+  const after = await nearestNode((await firstBall()).position);
+  assert.ok(after >= radius - quantum, `a node is ${after} m from the centre of a ball of ${radius} m`);
+  const [, , z] = await page.evaluate((at) => weft.positions().slice(at, at + 3), middle);
+  assert.ok(Math.abs(z - node[2]) > 0.5 * radius, `the node gave way by ${Math.abs(z - node[2])} m`);
+  assert.ok(centre);
+});
+
+test('a ball let go in motion is thrown', async () => {
+  await page.fill('#ball-place [data-axis="2"]', '1.5');
+  await page.press('#ball-place [data-axis="2"]', 'Enter');
+  await until(page, () => Math.abs(weft.stats.balls[0].position[2] - 1.5) < 1e-3);
+  const [x, y] = await page.evaluate(() => weft.toPage(weft.stats.balls[0].position));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 120, y - 60, {steps: 12});
+  await page.mouse.up();
+  await until(page, () => weft.stats.balls[0]?.motion === 'dynamic');
+  const start = await firstBall();
+  await until(page, (from) => {
+    const [ball] = weft.stats.balls;
+    // Thrown to the left; and it falls in the end.
+    return weft.toPage(ball.position)[0] < weft.toPage(from)[0] - 20 && ball.position[1] < from[1] - 1;
+  }, start.position);
+});
+
+test('the Throw button throws at the cloth', async () => {
+  await page.keyboard.press('r');
+  await until(page, () => weft.stats.balls.length === 0);  // the scene has none of its own
+  await page.click('#ball-add');
+  await until(page, () => weft.stats.balls.length === 1);
+  const {cloths: [{centre}]} = await stats(page);
+  const {position} = await firstBall();
+  const from = Math.hypot(...position.map((value, axis) => value - centre[axis]));
+  await page.click('#ball-throw');
+  await until(page, ([target, far]) => {
+    const [ball] = weft.stats.balls;
+    return ball.motion === 'dynamic' && Math.hypot(...ball.position.map((value, axis) => value - target[axis])) < 0.7 * far;
+  }, [centre, from]);
+});
+
+test('several balls: the chosen one is removed', async () => {
+  await page.click('#ball-add');
+  await until(page, () => weft.stats.balls.length === 2);
+  const [first, second] = (await stats(page)).balls.map(({ball}) => ball);
+  await page.selectOption('#ball', String(first));
+  await page.click('#ball-remove');
+  await until(page, (left) => weft.stats.balls.length === 1 && weft.stats.balls[0].ball === left, second);
+  await page.click('#ball-remove');
+  await until(page, () => weft.stats.balls.length === 0);
+  assert.equal(await page.isDisabled('#ball-throw'), true);
+});

@@ -1,0 +1,125 @@
+// Starts the server and the browser for a test file, and says what a page shows.
+import {spawn} from 'node:child_process';
+import {once} from 'node:events';
+import {createInterface} from 'node:readline';
+import {after} from 'node:test';
+import {chromium} from 'playwright-core';
+
+/** Longest wait for anything: generous, since the browser draws on the processor and shares it. */
+export const kPatienceMs = 60_000;
+
+const kChromium = [
+  '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+  '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+];
+
+const children = new Set();
+let browser = null;
+after(async () => {
+  await browser?.close();
+  for (const child of children) child.kill('SIGTERM');
+});
+
+/**
+ * `weft serve SCENES`, once it listens.
+ * @returns {Promise<{address: string, port: number, stop: () => Promise<void>}>}
+ */
+export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAGE} = {}) {
+  const child = spawn(process.env.WEFT_BINARY, ['serve', ...scenes, '--port', String(port), '--web', page, '--quiet'],
+    {stdio: ['ignore', 'pipe', 'inherit']});
+  children.add(child);
+  const exited = once(child, 'exit').then(([code]) => {
+    children.delete(child);
+    throw new Error(`weft serve ended with ${code}`);
+  });
+  exited.catch(() => {});
+  const lines = createInterface({input: child.stdout});
+  const [line] = await Promise.race([once(lines, 'line'), exited]);
+  const address = line.match(/http:\/\/\S+?(?=\/?$)/)[0];
+  return {
+    address,
+    port: Number(new URL(address).port),
+    stop: async () => {
+      child.kill('SIGTERM');
+      await exited.catch(() => {});
+    },
+  };
+}
+
+/** Every page opened so far logs here what it must not do. */
+export class Witness {
+  constructor(page) {
+    this.requests = [];
+    this.errors = [];
+    page.on('request', (request) => this.requests.push(request.url()));
+    page.on('console', (message) => message.type() === 'error' && this.errors.push(message.text()));
+    page.on('pageerror', (error) => this.errors.push(String(error)));
+  }
+}
+
+/**
+ * Opens a page in a window of its own.
+ * @returns {Promise<{page: import('playwright-core').Page, witness: Witness}>}
+ */
+export async function openPage(address, options = {}) {
+  browser ??= await chromium.launch({executablePath: process.env.WEFT_CHROMIUM ?? '/usr/bin/chromium', args: kChromium});
+  const page = await browser.newPage({viewport: {width: 900, height: 640}, reducedMotion: 'reduce', ...options});
+  page.setDefaultTimeout(kPatienceMs);
+  const witness = new Witness(page);
+  await page.goto(address);
+  return {page, witness};
+}
+
+/** Opens a scene and waits until its cloth is on the page. */
+export async function openScene(server, scene, options) {
+  const opened = await openPage(`${server.address}/?quality=low&scene=${scene}`, options);
+  await until(opened.page, () => weft.stats.connected && weft.stats.cloths.length > 0);
+  return opened;
+}
+
+/** Waits until a condition, evaluated in the page, holds; says what the page knew when it never did. */
+export async function until(page, condition, argument) {
+  try {
+    await page.waitForFunction(condition, argument, {timeout: kPatienceMs, polling: 50});
+  } catch (error) {
+    const stats = await page.evaluate(() => JSON.stringify(window.weft?.stats)).catch(() => 'page is gone');
+    throw new Error(`never true: ${condition} (${JSON.stringify(argument)}); the page says ${stats}`, {cause: error});
+  }
+}
+
+export const stats = (page) => page.evaluate(() => weft.stats);
+
+/** Stops the scene's clock and waits until the picture stands still. */
+export async function pause(page) {
+  await page.click('#pause');
+  await until(page, () => weft.stats.lastFrame.paused && weft.stats.settled);
+}
+
+/** A square of the page around a point of the scene, for screenshots. */
+export async function areaAround(page, point, side) {
+  const [x, y] = await page.evaluate((place) => weft.toPage(place), point);
+  return {x: x - side / 2, y: y - side / 2, width: side, height: side};
+}
+
+/**
+ * How many pixels of two screenshots differ by more than `threshold` in some channel, and how many there are.
+ * The browser decodes them: no image library is needed.
+ */
+export async function differingPixels(page, before, after, threshold = 8) {
+  const [a, b] = [before, after].map((image) => image.toString('base64'));
+  return page.evaluate(async ({a, b, threshold}) => {
+    const pixels = async (text) => {
+      const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], {type: 'image/png'}));
+      const pen = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      pen.drawImage(image, 0, 0);
+      return pen.getImageData(0, 0, image.width, image.height).data;
+    };
+    const [first, second] = [await pixels(a), await pixels(b)];
+    let differing = 0;
+    for (let at = 0; at < first.length; at += 4) {
+      if ([0, 1, 2].some((channel) => Math.abs(first[at + channel] - second[at + channel]) > threshold)) ++differing;
+    }
+    return {differing, all: first.length / 4};
+  }, {a, b, threshold});
+}

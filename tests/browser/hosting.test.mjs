@@ -1,0 +1,69 @@
+// The page away from the server, and with an address that leads nowhere.
+import assert from 'node:assert/strict';
+import {createServer} from 'node:http';
+import {readFile} from 'node:fs/promises';
+import {extname, join, normalize} from 'node:path';
+import {after, before, test} from 'node:test';
+import {openPage, startServer, stats, until} from './harness.mjs';
+
+const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml'};
+
+let service, host, site;
+before(async () => {
+  service = await startServer(['flag', 'curtain']);
+  host = createServer(async (request, response) => {
+    const path = new URL(request.url, 'http://host').pathname;
+    const file = join(process.env.WEFT_PAGE, normalize(path === '/' ? '/index.html' : path));
+    try {
+      const content = await readFile(file);
+      response.writeHead(200, {'content-type': kTypes[extname(file)] ?? 'application/octet-stream'}).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((resolve) => host.listen(0, '127.0.0.1', resolve));
+  site = `http://127.0.0.1:${host.address().port}`;
+});
+after(() => host.close());
+
+const serviceSocket = () => service.address.replace('http', 'ws');
+
+test('any static host will do, the service is a parameter', async () => {
+  const {page, witness} = await openPage(`${site}/?quality=low&server=${serviceSocket()}&scene=curtain`);
+  await until(page, () => weft.stats.connected && weft.stats.frames > 3);
+  assert.equal((await stats(page)).scene, 'curtain');
+  const origins = new Set(witness.requests.map((url) => new URL(url).origin).filter((origin) => origin !== 'null'));
+  for (const origin of origins) assert.ok([site, service.address].includes(origin), `a request to ${origin}`);
+  assert.deepEqual(witness.errors, []);
+  await page.close();
+});
+
+test('without a scene it is the service’s first one', async () => {
+  const {page} = await openPage(`${site}/?quality=low&server=${serviceSocket()}`);
+  await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
+  assert.equal((await stats(page)).scene, 'flag');
+  await page.close();
+});
+
+test('a scene that does not exist is told, and another can be chosen', async () => {
+  const {page} = await openPage(`${service.address}/?quality=low&scene=nonsense`);
+  await page.waitForSelector('#banner:not([hidden]) >> text=This server has no scene “nonsense”. Choose one from the list.');
+  assert.equal(await page.textContent('#connection'), 'not connected');
+  await page.selectOption('#scene', 'curtain');
+  await until(page, () => weft.stats.connected && weft.stats.scene === 'curtain');
+  assert.equal(await page.isVisible('#banner'), false);
+  await page.close();
+});
+
+test('a service that is not there is told, and tried again', async () => {
+  const {page} = await openPage(`${site}/?quality=low&server=ws://127.0.0.1:9&scene=flag`);
+  await page.waitForSelector('#banner:not([hidden]) >> text=No answer from 127.0.0.1:9.');
+  assert.equal(await page.isVisible('#banner-retry'), true);
+  await page.close();
+});
+
+test('an address that is none is told', async () => {
+  const {page} = await openPage(`${site}/?server=ftp://somewhere`);
+  await page.waitForSelector('#banner:not([hidden]) >> text=server=ftp://somewhere is not an address like ws://host:8080');
+  await page.close();
+});
