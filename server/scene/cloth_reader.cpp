@@ -57,7 +57,7 @@ Quaternion read_orientation(const json& value, const std::string& path, Report& 
   double degrees = 0;
   object.require("axis", "an array of 3 numbers");
   object.direction("axis", axis, kComponent);
-  object.require("degrees", kDegrees.text().c_str());
+  object.require("degrees", kDegrees);
   object.number("degrees", degrees, kDegrees);
   return Quaternion(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis));
 }

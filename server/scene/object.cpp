@@ -80,6 +80,16 @@ std::optional<double> read_number(const json& value, const std::string& path, co
   return std::nullopt;
 }
 
+bool read_string(const json& value, const std::string& path, std::size_t max_length, std::string& target,
+                 Report& report) {
+  if (value.is_string() && length(value.get_ref<const std::string&>()) <= max_length) {
+    target = value.get<std::string>();
+    return true;
+  }
+  report.refuse(value, path, "a string of at most " + std::to_string(max_length) + " characters");
+  return false;
+}
+
 bool read_numbers(const json& value, const std::string& path, const Range& range, double* target,
                   std::size_t count, Report& report) {
   if (!value.is_array() || value.size() != count) {
@@ -116,9 +126,9 @@ const json* Object::find(const char* key) {
   return found == value_->end() ? nullptr : &*found;
 }
 
-bool Object::require(const char* key, const char* expected) {
+bool Object::require(const char* key, const std::string& expected) {
   if (find(key)) return true;
-  if (value_) problem(key, std::string("is missing; must be ") + expected);
+  if (value_) problem(key, "is missing; must be " + expected);
   return false;
 }
 
@@ -167,14 +177,7 @@ bool Object::boolean(const char* key, bool& target) {
 
 bool Object::string(const char* key, std::string& target, std::size_t max_length) {
   const json* value = find(key);
-  if (!value) return false;
-  const bool good = value->is_string() && length(value->get_ref<const std::string&>()) <= max_length;
-  if (!good) {
-    report_.refuse(*value, path(key), "a string of at most " + std::to_string(max_length) + " characters");
-    return false;
-  }
-  target = value->get<std::string>();
-  return true;
+  return value && read_string(*value, path(key), max_length, target, report_);
 }
 
 int Object::choice(const char* key, std::initializer_list<const char*> names) {

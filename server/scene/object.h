@@ -48,6 +48,9 @@ std::string element_path(const std::string& array, std::size_t index);
 /// The number at `path`, or nothing and a problem.
 std::optional<double> read_number(const nlohmann::json& value, const std::string& path, const Range& range,
                                   Report& report);
+/// Takes the string at `path` into `target` if it has at most `max_length` characters.
+bool read_string(const nlohmann::json& value, const std::string& path, std::size_t max_length,
+                 std::string& target, Report& report);
 /// Fills `target` from an array of `count` numbers; false, with all problems reported, if it is not one.
 bool read_numbers(const nlohmann::json& value, const std::string& path, const Range& range, double* target,
                   std::size_t count, Report& report);
@@ -67,7 +70,8 @@ class Object {
   const nlohmann::json* find(const char* key);
   bool has(const char* key) { return find(key) != nullptr; }
   /// Reports the key if it is missing. `expected` says what belongs there.
-  bool require(const char* key, const char* expected);
+  bool require(const char* key, const std::string& expected);
+  bool require(const char* key, const Range& range) { return require(key, "a number " + range.text()); }
   std::string path(std::string_view key) const;
   void problem(const char* key, std::string message) { report_.add(path(key), std::move(message)); }
   Report& report() { return report_; }

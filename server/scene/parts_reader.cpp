@@ -15,7 +15,7 @@ std::vector<Waypoint> read_path(Object& ball) {
   ball.each("path", 1, kMaxWaypoints, [&](const json& value, const std::string& at) {
     Waypoint point;
     Object object(value, at, ball.report());
-    object.require("time", kTime.text().c_str());
+    object.require("time", kTime);
     const bool timed = object.number("time", point.time, kTime);
     object.require("position", "an array of 3 numbers");
     object.vector("position", point.position, kPosition);
@@ -39,7 +39,7 @@ std::optional<BallDescription> read_collider(const json& value, const std::strin
     return std::nullopt;
   }
   BallDescription ball;
-  object.require("radius", kLength.text().c_str());
+  object.require("radius", kLength);
   object.number("radius", ball.radius, kLength);
   if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
   object.number("mass", ball.mass, kMass);
@@ -96,7 +96,7 @@ Wind read_wind(const json& value, const std::string& path, Report& report) {
   Wind wind;
   Object object(value, path, report);
   object.direction("direction", wind.direction, kComponent);
-  object.require("speed", kSpeed.text().c_str());
+  object.require("speed", kSpeed);
   object.number("speed", wind.speed, kSpeed);
   return wind;
 }

@@ -21,11 +21,7 @@ std::vector<std::string> read_notes(Object& scene) {
     scene.report().refuse(*value, scene.path("notes"), "a string or an array of strings");
   } else {
     scene.each("notes", 0, kMaxNotes, [&](const json& note, const std::string& path) {
-      if (note.is_string()) {
-        notes.push_back(note.get<std::string>());
-      } else {
-        scene.report().refuse(note, path, "a string");
-      }
+      read_string(note, path, kNoteLength, notes.emplace_back(), scene.report());
     });
   }
   return notes;

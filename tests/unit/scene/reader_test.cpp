@@ -1,0 +1,160 @@
+// Fields arrive where they belong; what is left out has the defaults of cloth/description.h.
+#include <cmath>
+
+#include "fixtures.h"
+
+namespace weft::scene::test {
+namespace {
+
+Scene read_good(const std::string& name) {
+  return good(
+      parse(read_file(std::filesystem::path(WEFT_SCENE_TEST_DATA) / "good" / (name + ".json")), name));
+}
+
+bool is(const PinRegion& pin, double u_min, double u_max, double v_min, double v_max) {
+  return pin.u_min == u_min && pin.u_max == u_max && pin.v_min == v_min && pin.v_max == v_max;
+}
+
+TEST(Reader, DefaultsAreThoseOfTheDescription) {
+  const Scene scene = read_good("least");
+  EXPECT_EQ(scene.name, "least");
+  EXPECT_EQ(scene.title, "least");
+  EXPECT_EQ(scene.camera_distance, 5);
+  EXPECT_EQ(scene.camera_eye, Vec3(0, 0, 5));
+  const SimulationDescription& simulation = scene.simulation;
+  ASSERT_EQ(simulation.cloths.size(), 1u);
+  const ClothDescription& cloth = simulation.cloths[0];
+  EXPECT_EQ(cloth.name, "cloth");
+  EXPECT_EQ(cloth.size, Vec2(2, 2));
+  EXPECT_EQ(cloth.base_cells, (BaseCells{1, 1}));
+  EXPECT_EQ(cloth.min_level, 4);
+  EXPECT_EQ(cloth.max_level, 6);
+  EXPECT_EQ(cloth.initial_level, 6);
+  EXPECT_EQ(cloth.material, Material{});
+  EXPECT_EQ(cloth.discretization, Discretization::continuum);
+  EXPECT_TRUE(cloth.nodes.empty());
+  EXPECT_TRUE(cloth.pins.empty());
+  EXPECT_TRUE(simulation.balls.empty());
+  EXPECT_TRUE(simulation.effects.empty());
+  EXPECT_EQ(simulation.time_step, 1.0 / 60);
+  EXPECT_EQ(simulation.seed, 1u);
+  EXPECT_EQ(simulation.level_policy.thresholds, (std::vector<double>{1, 10}));
+  EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{6, 5, 4}));
+  const auto& euler = std::get<SymplecticEulerDescription>(simulation.integrator);
+  EXPECT_EQ(euler.substeps, 0);
+  EXPECT_EQ(euler.safety, 0.9);
+}
+
+TEST(Reader, ClothFields) {
+  const Scene scene = read_good("everything");
+  EXPECT_EQ(scene.title, "All there is");
+  EXPECT_EQ(scene.notes, (std::vector<std::string>{"one", "two"}));
+  ASSERT_EQ(scene.simulation.cloths.size(), 3u);
+  const ClothDescription& cloth = scene.simulation.cloths[0];
+  EXPECT_EQ(cloth.name, "left_sail-1");
+  EXPECT_EQ(cloth.size, Vec2(3, 1.5));
+  EXPECT_EQ(cloth.base_cells, (BaseCells{2, 1}));
+  EXPECT_EQ(cloth.position, Vec3(1, 2, 3));
+  EXPECT_EQ(cloth.velocity, Vec3(0.5, 0, -0.5));
+  EXPECT_EQ(cloth.perturbation, 0.01);
+  EXPECT_EQ(cloth.min_level, 3);
+  EXPECT_EQ(cloth.max_level, 6);
+  EXPECT_EQ(cloth.initial_level, 5);
+  EXPECT_EQ(cloth.discretization, Discretization::paper);
+  // A quarter turn about y takes the sheet's x axis to -z; the axis need not be of length 1.
+  EXPECT_LT((cloth.orientation * Vec3::UnitX() - Vec3(0, 0, -1)).norm(), 1e-15);
+  ASSERT_EQ(cloth.pins.size(), 4u);
+  EXPECT_TRUE(is(cloth.pins[0], 0, 0, 0, 0));  // top_left
+  EXPECT_TRUE(is(cloth.pins[1], 1, 1, 0, 1));  // right
+  EXPECT_TRUE(is(cloth.pins[2], 0.25, 0.25, 0.75, 0.75));
+  EXPECT_TRUE(is(cloth.pins[3], 0.25, 0.5, 0, 1));
+  EXPECT_TRUE(scene.simulation.cloths[1].orientation.isApprox(Quaternion::Identity()));
+}
+
+TEST(Reader, MaterialsByNameByNameWithChangesAndRaw) {
+  const auto cloths = read_good("everything").simulation.cloths;
+  Material silk = find_fabric("silk")->material;
+  silk.damping = 0.25;
+  EXPECT_EQ(cloths.at(0).material, silk);
+  EXPECT_EQ(cloths.at(1).material, find_fabric("denim")->material);
+  EXPECT_EQ(cloths.at(2).material, (Material{0.2, 1000, 0, 0, 0}));
+}
+
+TEST(Reader, EveryNamedPin) {
+  const Scene scene = good(parse(R"({"cloths":[{"pins":["top_left","top_right","bottom_left","bottom_right",
+      "top","bottom","left","right"]}]})",
+                                 "pins"));
+  const auto& pins = scene.simulation.cloths.at(0).pins;
+  ASSERT_EQ(pins.size(), 8u);
+  EXPECT_TRUE(is(pins[0], 0, 0, 0, 0));
+  EXPECT_TRUE(is(pins[1], 1, 1, 0, 0));
+  EXPECT_TRUE(is(pins[2], 0, 0, 1, 1));
+  EXPECT_TRUE(is(pins[3], 1, 1, 1, 1));
+  EXPECT_TRUE(is(pins[4], 0, 1, 0, 0));
+  EXPECT_TRUE(is(pins[5], 0, 1, 1, 1));
+  EXPECT_TRUE(is(pins[6], 0, 0, 0, 1));
+  EXPECT_TRUE(is(pins[7], 1, 1, 0, 1));
+}
+
+TEST(Reader, BallFields) {
+  const auto balls = read_good("everything").simulation.balls;
+  ASSERT_EQ(balls.size(), 2u);
+  EXPECT_EQ(balls[0].motion, BallDescription::Motion::dynamic);
+  EXPECT_EQ(balls[0].position, Vec3(0, 1, 0));
+  EXPECT_EQ(balls[0].radius, 0.3);
+  EXPECT_EQ(balls[0].velocity, Vec3(0, -2, 0));
+  EXPECT_EQ(balls[0].mass, 2.5);
+  EXPECT_EQ(balls[1].motion, BallDescription::Motion::kinematic);
+  ASSERT_EQ(balls[1].path.size(), 2u);
+  EXPECT_EQ(balls[1].path[0].time, 0.5);
+  EXPECT_EQ(balls[1].path[1].position, Vec3(0, 0, 0));
+  EXPECT_EQ(balls[1].position, Vec3(4, 5, 6));  // where the path begins
+}
+
+TEST(Reader, EffectsWindAndStepping) {
+  const SimulationDescription simulation = read_good("everything").simulation;
+  ASSERT_EQ(simulation.effects.size(), 4u);
+  EXPECT_EQ(std::get<GravityEffect>(simulation.effects[0]).acceleration, Vec3(0, 0, -1.62));
+  EXPECT_TRUE(std::holds_alternative<DampingEffect>(simulation.effects[1]));
+  EXPECT_EQ(std::get<PaperWindEffect>(simulation.effects[2]).factor, 2);
+  EXPECT_TRUE(std::get<PaperWindEffect>(simulation.effects[2]).along_normal);
+  EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).air_density, 1);
+  EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).drag, 1.5);
+  EXPECT_LT((simulation.wind.direction - Vec3(0.6, 0, -0.8)).norm(), 1e-15);  // 3, 4, 5
+  EXPECT_EQ(simulation.wind.speed, 7);
+  EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).substeps, 40);
+  EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).safety, 0.5);
+  EXPECT_EQ(simulation.time_step, 0.01);
+  EXPECT_EQ(simulation.level_policy.thresholds, (std::vector<double>{1, 2, 4, 8, 16}));
+  EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{8, 7, 6, 5, 4, 3}));
+  EXPECT_EQ(simulation.level_policy.hysteresis, 0.2);
+  EXPECT_EQ(simulation.seed, 9007199254740991u);
+}
+
+TEST(Reader, ExtremesAreAllowed) {
+  const Scene scene = read_good("extremes");
+  ASSERT_EQ(scene.simulation.cloths.size(), 3u);
+  EXPECT_EQ(scene.simulation.cloths[1].max_level, 8);  // 257 x 257 nodes, the most there may be
+  EXPECT_EQ(scene.simulation.cloths[2].nodes, std::vector<Vec3>(81, Vec3(0, 0, 0)));
+  EXPECT_EQ(scene.camera_distance, 1e6);  // the eye's
+}
+
+TEST(Reader, CameraEyeAndDistanceFollowEachOther) {
+  const Scene eye = good(parse(R"({"cloths":[{}],"camera":{"eye":[3,4,1],"target":[0,0,1]}})", "a"));
+  EXPECT_DOUBLE_EQ(eye.camera_distance, 5);  // 3, 4, 5
+  const Scene distance = good(parse(R"({"cloths":[{}],"camera":{"distance":7,"target":[1,2,3]}})", "b"));
+  EXPECT_EQ(distance.camera_eye, Vec3(1, 2, 10));
+  const Scene both = read_good("everything");
+  EXPECT_EQ(both.camera_distance, 4);
+  EXPECT_EQ(both.camera_eye, Vec3(1, 2, 3));
+}
+
+TEST(Reader, AFilesNameBecomesTheScenesName) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "My Scene_2.v1.json";
+  std::ofstream(file) << R"({"cloths":[{}]})";
+  EXPECT_EQ(good(load(file.string())).name, "my-scene-2-v1");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace weft::scene::test
