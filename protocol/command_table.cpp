@@ -299,13 +299,14 @@ std::optional<JsonFault> read_command(const json& message, Request& request) {
                                       [&](const Operation& known) { return *op == known.name; });
   if (operation == operations().end()) return refuse("unknown_op", "/op", *op, listed(operations()));
 
-  for (const auto& [name, value] : message.items()) {
+  for (const auto& member : message.items()) {
+    const std::string& name = member.key();
     const bool known = name == "op" || name == "id" ||
                        std::any_of(operation->fields.begin(), operation->fields.end(),
                                    [&](const Field& field) { return name == field.name; });
     if (!known) {
       const std::string also = operation->fields.empty() ? "" : ", " + listed(operation->fields);
-      return refuse("unknown_member", pointer_to("", name), value,
+      return refuse("unknown_member", pointer_to("", name), member.value(),
                     std::string("in ") + operation->name + " only op, id" + also);
     }
   }

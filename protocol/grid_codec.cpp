@@ -208,7 +208,7 @@ bool decode_grid(std::span<const std::uint8_t> payload, int rows, int cols, cons
       float* to = xyz.data() + index(r) * index(cols) * 3 + axis;
       for (int c = 0; c < cols; ++c) {
         const auto q = static_cast<std::uint32_t>(above[index(c)]);
-        to[c * 3] = static_cast<float>(quantisation.decode(static_cast<int>(axis), q));
+        to[index(c) * 3] = static_cast<float>(quantisation.decode(static_cast<int>(axis), q));
       }
     }
   }

@@ -162,36 +162,34 @@ TEST(Message, MutatedMessagesNeverBreakTheParser) {
   std::mt19937 random(20260102);
   const auto below = [&](std::size_t end) { return random() % end; };
   int accepted = 0, refused = 0;
-  for (const char* part : {"good", "bad"}) {
-    for (const json& vector : vectors()[part]) {
-      const std::string original = text_of(vector);
-      SCOPED_TRACE(original);
-      for (int i = 0; i < kMutations; ++i) {
-        std::string text = original;
-        for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
-          const std::size_t at = below(text.size() + 1);
-          const char c = kLikely[below(kLikely.size())];
-          switch (below(3)) {
-            case 0:
-              text.insert(at, 1, c);
-              break;
-            case 1:
-              text.erase(at, 1 + below(3));
-              break;
-            default:
-              if (at < text.size()) text[at] = c;
-          }
+  for (const json& vector : vectors()["good"]) {
+    const std::string original = vector["text"];
+    SCOPED_TRACE(original);
+    for (int i = 0; i < kMutations; ++i) {
+      std::string text = original;
+      for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
+        const std::size_t at = below(text.size() + 1);
+        const char c = kLikely[below(kLikely.size())];
+        switch (below(3)) {
+          case 0:
+            text.insert(at, 1, c);
+            break;
+          case 1:
+            text.erase(at, 1 + below(3));
+            break;
+          default:
+            if (at < text.size()) text[at] = c;
         }
-        const auto parsed = parse_request(text);
-        if (const Error* error = std::get_if<Error>(&parsed)) {
-          ++refused;
-          ASSERT_FALSE(error->code.empty());
-          ASSERT_TRUE(json::accept(error_text(*error)));
-        } else {
-          ++accepted;
-          ASSERT_TRUE(std::holds_alternative<Request>(parse_request(to_text(std::get<Request>(parsed)))))
-              << text;
-        }
+      }
+      const auto parsed = parse_request(text);
+      if (const Error* error = std::get_if<Error>(&parsed)) {
+        ++refused;
+        ASSERT_FALSE(error->code.empty());
+        ASSERT_TRUE(json::accept(error_text(*error)));
+      } else {
+        ++accepted;
+        ASSERT_TRUE(std::holds_alternative<Request>(parse_request(to_text(std::get<Request>(parsed)))))
+            << text;
       }
     }
   }
