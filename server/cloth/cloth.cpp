@@ -69,12 +69,13 @@ void place(const ClothDescription& description, Particles<Real>& particles) {
   if (!description.nodes.empty() && description.nodes.size() != static_cast<std::size_t>(grid.nodes())) {
     throw std::invalid_argument("a cloth needs as many start positions as it has nodes at its initial level");
   }
+  std::size_t next = 0;
   for_each_node(grid, [&](int r, int c, double u, double v) {
     if (description.nodes.empty()) {
       const Vec3 local((u - 0.5) * description.size.x(), (0.5 - v) * description.size.y(), 0.0);
       set(particles.position, r, c, description.position + description.orientation * local);
     } else {
-      set(particles.position, r, c, description.nodes[static_cast<std::size_t>(r * grid.cols + c)]);
+      set(particles.position, r, c, description.nodes[next++]);
     }
   });
 }

@@ -14,19 +14,20 @@ void require_nested(const Grid& coarse, const Grid& fine) {
 /// Eq. 8 for one quantity: A_e = (A_a + A_b)/2 on an edge, A_i = (A_a + A_b + A_c + A_d)/4 in the middle.
 template <class Real>
 void split_field(const Field<Real>& coarse, Field<Real>& fine) {
-  const Grid& grid = coarse.grid();
-  for (int r = 0; r < grid.rows; ++r) {
+  const int rows = coarse.grid().rows;
+  const auto last = static_cast<std::size_t>(coarse.grid().cols - 1);
+  for (int r = 0; r < rows; ++r) {
     const Real* from = coarse.row(r);
     Real* to = fine.row(2 * r);
-    for (int c = 0; c < grid.cols; ++c) to[2 * c] = from[c];
-    for (int c = 0; c + 1 < grid.cols; ++c) to[2 * c + 1] = (from[c] + from[c + 1]) / 2;
+    for (std::size_t c = 0; c <= last; ++c) to[2 * c] = from[c];
+    for (std::size_t c = 0; c < last; ++c) to[2 * c + 1] = (from[c] + from[c + 1]) / 2;
   }
-  for (int r = 0; r + 1 < grid.rows; ++r) {
+  for (int r = 0; r + 1 < rows; ++r) {
     const Real* above = coarse.row(r);
     const Real* below = coarse.row(r + 1);
     Real* to = fine.row(2 * r + 1);
-    for (int c = 0; c < grid.cols; ++c) to[2 * c] = (above[c] + below[c]) / 2;
-    for (int c = 0; c + 1 < grid.cols; ++c) {
+    for (std::size_t c = 0; c <= last; ++c) to[2 * c] = (above[c] + below[c]) / 2;
+    for (std::size_t c = 0; c < last; ++c) {
       to[2 * c + 1] = (above[c] + above[c + 1] + below[c] + below[c + 1]) / 4;
     }
   }
@@ -34,11 +35,11 @@ void split_field(const Field<Real>& coarse, Field<Real>& fine) {
 
 template <class Real>
 void merge_field(const Field<Real>& fine, Field<Real>& coarse) {
-  const Grid& grid = coarse.grid();
-  for (int r = 0; r < grid.rows; ++r) {
+  const auto cols = static_cast<std::size_t>(coarse.grid().cols);
+  for (int r = 0; r < coarse.grid().rows; ++r) {
     const Real* from = fine.row(2 * r);
     Real* to = coarse.row(r);
-    for (int c = 0; c < grid.cols; ++c) to[c] = from[2 * c];
+    for (std::size_t c = 0; c < cols; ++c) to[c] = from[2 * c];
   }
 }
 

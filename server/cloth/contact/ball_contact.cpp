@@ -31,14 +31,13 @@ class Node {
     return (position_ - ball.centre).squaredNorm() < ball.squared_radius;
   }
 
-  /// To centre + distance * direction, or as little further as the node's precision needs to end up outside.
+  /// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up
+  /// outside.
   void put_outside(const PlacedBall& ball, const Vec3& from, const Vec3& direction, double distance) {
-    double margin = 0;
-    const double least = distance * double(std::numeric_limits<Real>::epsilon()) / 4;
+    double margin = (from.cwiseAbs().sum() + distance) * double(std::numeric_limits<Real>::epsilon()) / 2;
     do {
-      const Vec3 target = from + (distance + margin) * direction;
-      set_position(target);
-      margin = std::max(2 * margin, least);
+      set_position(from + (distance + margin) * direction);
+      margin *= 2;
     } while (inside(ball));
   }
 
@@ -124,6 +123,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
   const std::vector<TileBallPair>& pairs = broad_phase_.find_pairs(particles.position, balls, from, to);
   if (pairs.empty()) return 0;
   std::vector<PlacedBall> placed;
+  placed.reserve(balls.size());
   for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius * ball.radius});
 
   const Grid& grid = particles.grid();

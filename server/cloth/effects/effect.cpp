@@ -28,6 +28,7 @@ double Effect<Real>::max_damping_rate(const Particles<Real>&, const EffectContex
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions) {
   std::vector<std::unique_ptr<Effect<Real>>> effects;
+  effects.reserve(descriptions.size());
   for (const EffectDescription& description : descriptions) {
     effects.push_back(std::visit(Maker<Real>{}, description));
   }

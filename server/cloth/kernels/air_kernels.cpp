@@ -58,29 +58,33 @@ template <class Real>
   }
 }
 
+/// target[c] += what the faces left and right of node c give it, for `count` faces; `faces` has a zero before
+/// and after.
 template <class Real>
-[[gnu::always_inline]] inline void add_block(Real* __restrict target, const Real* __restrict block,
-                                             int count) {
-  for (int c = 0; c < count; ++c) target[c] += block[c];
+[[gnu::always_inline]] inline void add_to_corners(Real* __restrict target, const Real* __restrict faces,
+                                                  int count) {
+  for (int c = 0; c <= count; ++c) target[c] += faces[c - 1] + faces[c];
 }
 
 template <class Real>
 [[gnu::always_inline]] inline void add_pressure(const Grid& grid, const Components<const Real>& p,
                                                 const Components<const Real>& v, const Air<Real>& air,
                                                 Real factor, const Components<Real>& force) {
-  alignas(64) Real fx[kBlock];
-  alignas(64) Real fy[kBlock];
-  alignas(64) Real fz[kBlock];
+  alignas(64) Real work[3][kRowAlign + kBlock + kRowAlign] = {};
+  Real* const fx = work[0] + kRowAlign;
+  Real* const fy = work[1] + kRowAlign;
+  Real* const fz = work[2] + kRowAlign;
   const auto stride = static_cast<std::size_t>(grid.stride);
-  for (int r = 0; r + 1 < grid.rows; ++r) {
-    for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
-      const int count = std::min(kBlock, grid.cols - 1 - begin);
+  for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
+    const int count = std::min(kBlock, grid.cols - 1 - begin);
+    fx[count] = fy[count] = fz[count] = Real(0);
+    for (int r = 0; r + 1 < grid.rows; ++r) {
       const std::size_t first = grid.index(r, begin);
       pressure_block(p, v, first, stride, count, air, factor, fx, fy, fz);
-      for (const std::size_t corner : {first, first + 1, first + stride, first + stride + 1}) {
-        add_block(force.x + corner, fx, count);
-        add_block(force.y + corner, fy, count);
-        add_block(force.z + corner, fz, count);
+      for (const std::size_t row : {first, first + stride}) {
+        add_to_corners(force.x + row, fx, count);
+        add_to_corners(force.y + row, fy, count);
+        add_to_corners(force.z + row, fz, count);
       }
     }
   }
@@ -114,12 +118,13 @@ template <class Real>
 [[gnu::always_inline]] inline void normals_block(const Components<const Real>& p, std::size_t first,
                                                  int count, std::size_t left, std::size_t right,
                                                  std::size_t up, std::size_t down, const Air<Real>& direction,
-                                                 const Real* __restrict weight,
+                                                 const Real* __restrict mass, const Push<Real>& push,
                                                  const Components<Real>& force) {
   const Real smallest = std::numeric_limits<Real>::min();
   Real* __restrict fx = force.x + first;
   Real* __restrict fy = force.y + first;
   Real* __restrict fz = force.z + first;
+  WEFT_INDEPENDENT_ITERATIONS
   for (int c = 0; c < count; ++c) {
     const std::size_t i = first + static_cast<std::size_t>(c);
     const Real ux = p.x[i + right] - p.x[i - left], uy = p.y[i + right] - p.y[i - left],
@@ -129,8 +134,9 @@ template <class Real>
     const Real nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
     const Real squared = nx * nx + ny * ny + nz * nz;
     const Real downwind = nx * direction.x + ny * direction.y + nz * direction.z;
-    const Real signed_weight = downwind < Real(0) ? -weight[i] : weight[i];
-    const Real scale = signed_weight / std::sqrt(squared > smallest ? squared : smallest);
+    const Real strength = push.per_node + push.per_mass * mass[i];
+    const Real scale =
+        (downwind < Real(0) ? -strength : strength) / std::sqrt(squared > smallest ? squared : smallest);
     fx[c] += scale * nx;
     fy[c] += scale * ny;
     fz[c] += scale * nz;
@@ -139,15 +145,32 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline void add_normals(const Grid& grid, const Components<const Real>& p,
-                                               const Air<Real>& direction, const Real* weight,
-                                               const Components<Real>& force) {
+                                               const Real* mass, const Push<Real>& push,
+                                               const Air<Real>& direction, const Components<Real>& force) {
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t up = r > 0 ? stride : 0;
     const std::size_t down = r + 1 < grid.rows ? stride : 0;
-    normals_block(p, grid.index(r, 0), 1, 0, 1, up, down, direction, weight, force);
-    normals_block(p, grid.index(r, 1), grid.cols - 2, 1, 1, up, down, direction, weight, force);
-    normals_block(p, grid.index(r, grid.cols - 1), 1, 1, 0, up, down, direction, weight, force);
+    normals_block(p, grid.index(r, 0), 1, 0, 1, up, down, direction, mass, push, force);
+    normals_block(p, grid.index(r, 1), grid.cols - 2, 1, 1, up, down, direction, mass, push, force);
+    normals_block(p, grid.index(r, grid.cols - 1), 1, 1, 0, up, down, direction, mass, push, force);
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void push_row(Real* __restrict force, const Real* __restrict mass,
+                                            const Push<Real>& push, Real direction, int count) {
+  for (int c = 0; c < count; ++c) force[c] += (push.per_node + push.per_mass * mass[c]) * direction;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void push_all(const Grid& grid, const Real* mass, const Push<Real>& push,
+                                            const Air<Real>& direction, const Components<Real>& force) {
+  for (int r = 0; r < grid.rows; ++r) {
+    const std::size_t first = grid.index(r, 0);
+    push_row(force.x + first, mass + first, push, direction.x, grid.cols);
+    push_row(force.y + first, mass + first, push, direction.y, grid.cols);
+    push_row(force.z + first, mass + first, push, direction.z, grid.cols);
   }
 }
 
@@ -173,15 +196,24 @@ WEFT_MULTIVERSION double max_air_flow(const Grid& grid, Components<const double>
   return max_flow(grid, position, velocity, air);
 }
 
-WEFT_MULTIVERSION void add_along_normals(const Grid& grid, Components<const float> position,
-                                         const Air<float>& direction, const float* weight,
-                                         Components<float> force) {
-  add_normals(grid, position, direction, weight, force);
+WEFT_MULTIVERSION void add_push(const Grid& grid, const float* mass, const Push<float>& push,
+                                const Air<float>& direction, Components<float> force) {
+  push_all(grid, mass, push, direction, force);
 }
-WEFT_MULTIVERSION void add_along_normals(const Grid& grid, Components<const double> position,
-                                         const Air<double>& direction, const double* weight,
-                                         Components<double> force) {
-  add_normals(grid, position, direction, weight, force);
+WEFT_MULTIVERSION void add_push(const Grid& grid, const double* mass, const Push<double>& push,
+                                const Air<double>& direction, Components<double> force) {
+  push_all(grid, mass, push, direction, force);
+}
+
+WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const float> position,
+                                              const float* mass, const Push<float>& push,
+                                              const Air<float>& direction, Components<float> force) {
+  add_normals(grid, position, mass, push, direction, force);
+}
+WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const double> position,
+                                              const double* mass, const Push<double>& push,
+                                              const Air<double>& direction, Components<double> force) {
+  add_normals(grid, position, mass, push, direction, force);
 }
 
 }  // namespace weft::kernels

@@ -23,11 +23,24 @@ float max_air_flow(const Grid& grid, Components<const float> position, Component
 double max_air_flow(const Grid& grid, Components<const double> position, Components<const double> velocity,
                     const Air<double>& air);
 
-/// force += weight * N, N the unit normal of the surface at the node (from its four neighbours, fewer on the
+/// Strength of the paper's wind on a node, N: per_node + per_mass * mass.
+template <class Real>
+struct Push {
+  Real per_node;
+  Real per_mass;
+};
+
+/// force += push * direction on every node.
+void add_push(const Grid& grid, const float* mass, const Push<float>& push, const Air<float>& direction,
+              Components<float> force);
+void add_push(const Grid& grid, const double* mass, const Push<double>& push, const Air<double>& direction,
+              Components<double> force);
+
+/// force += push * N, N the unit normal of the surface at the node (from its four neighbours, fewer on the
 /// border), turned towards `direction`; nothing where the neighbours span no surface.
-void add_along_normals(const Grid& grid, Components<const float> position, const Air<float>& direction,
-                       const float* weight, Components<float> force);
-void add_along_normals(const Grid& grid, Components<const double> position, const Air<double>& direction,
-                       const double* weight, Components<double> force);
+void add_push_along_normals(const Grid& grid, Components<const float> position, const float* mass,
+                            const Push<float>& push, const Air<float>& direction, Components<float> force);
+void add_push_along_normals(const Grid& grid, Components<const double> position, const double* mass,
+                            const Push<double>& push, const Air<double>& direction, Components<double> force);
 
 }  // namespace weft::kernels
