@@ -45,11 +45,12 @@ std::vector<float> halved_cells(const std::vector<float>& values, int rows, int 
 
 MeshFrame on_grid(const MeshFrame& frame, int rows, int cols) {
   MeshFrame result = frame;
+  const bool finer = frame.rows < rows;
   while (result.rows != rows || result.cols != cols) {
-    const bool finer = result.rows < rows && result.cols < cols;
-    const bool coarser =
-        result.rows > rows && result.cols > cols && result.rows % 2 == 1 && result.cols % 2 == 1;
-    if (!finer && !coarser) {
+    const bool possible =
+        finer ? result.rows < rows && result.cols < cols
+              : result.rows > rows && result.cols > cols && result.rows % 2 == 1 && result.cols % 2 == 1;
+    if (!possible) {
       throw std::invalid_argument("a mesh of " + std::to_string(frame.rows) + " x " +
                                   std::to_string(frame.cols) +
                                   " nodes is no level of a cloth that has one of " + std::to_string(rows) +

@@ -1,0 +1,225 @@
+"""The executable itself: exit codes, what run writes, check, and that the same run gives the same bytes."""
+import csv
+import os
+import pathlib
+import pty
+import select
+import struct
+import subprocess
+import tempfile
+import unittest
+
+WEFT = os.environ["WEFT_BINARY"]
+BAD_SCENES = pathlib.Path(os.environ["WEFT_BAD_SCENES"])
+LIMIT_S = 120
+
+PRESETS = ["flag", "curtain", "tablecloth", "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
+
+
+def weft(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run([WEFT, *map(str, arguments)], capture_output=True, text=True, timeout=LIMIT_S)
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_ok(self, *arguments):
+        result = weft("run", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def stats(self, *arguments) -> list[dict]:
+        """The rows of --stats of a run."""
+        self.run_ok(*arguments, "--stats", self.folder / "stats.csv")
+        with open(self.folder / "stats.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def scene_file(self, text: str) -> pathlib.Path:
+        path = self.folder / "scene.json"
+        path.write_text(text)
+        return path
+
+
+class Outputs(CliTest):
+    def test_all_formats_hold_the_start_and_each_step(self):
+        self.run_ok("flag", "--frames", 3, "--level", 4, *[
+            argument for name in ("m.obj", "m.pc2", "m.csv", "m.glb") for argument in ("--out", self.folder / name)])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["m.csv", "m.glb", "m.pc2", "m_0000.obj", "m_0001.obj", "m_0002.obj", "m_0003.obj"])
+        with open(self.folder / "m.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 4 * 17 * 17)
+        self.assertEqual([rows[0][key] for key in ("frame", "time", "row", "col")], ["0", "0", "0", "0"])
+        self.assertEqual([rows[-1][key] for key in ("frame", "row", "col")], ["3", "16", "16"])
+        pc2 = (self.folder / "m.pc2").read_bytes()
+        self.assertEqual(struct.unpack("<12siiffi", pc2[:32]), (b"POINTCACHE2\0", 1, 17 * 17, 0.0, 1.0, 4))
+        self.assertEqual(len(pc2), 32 + 4 * 17 * 17 * 12)
+        # One state, two formats: the last node of the last frame.
+        last = struct.unpack("<3f", pc2[-12:])
+        self.assertEqual([struct.unpack("<f", struct.pack("<f", float(rows[-1][k])))[0] for k in "xyz"], list(last))
+
+    def test_same_run_gives_same_bytes(self):
+        for scene in ("flag", "tablecloth", "zheng2020-ball"):
+            for name in ("a", "b"):
+                self.run_ok(scene, "--frames", 20, "--level", 5, "--stats", self.folder / f"{name}.stats", *[
+                    x for extension in ("obj", "pc2", "csv", "glb") for x in ("--out", self.folder / f"{name}.{extension}")])
+            names = [p.name[1:] for p in self.folder.iterdir() if p.name.startswith("a") and p.suffix != ".stats"]
+            self.assertEqual(len(names), 21 + 3)
+            for name in names:
+                self.assertEqual((self.folder / f"a{name}").read_bytes(), (self.folder / f"b{name}").read_bytes(), name)
+            stats = []
+            for name in ("a", "b"):
+                with open(self.folder / f"{name}.stats", newline="") as file:
+                    stats.append([{k: v for k, v in row.items() if k != "milliseconds"} for row in csv.DictReader(file)])
+            self.assertEqual(stats[0], stats[1])
+            self.assertEqual(len(stats[0]), 21)
+
+    def test_several_cloths_have_files_and_rows_of_their_own(self):
+        rows = self.stats("flag", "--frames", 1, "--level", 4, "--out", self.folder / "m.csv",
+                          "--set", '/cloths/1={"name":"second","levels":{"min":3,"max":3}}')
+        self.assertTrue((self.folder / "m-flag.csv").exists())
+        self.assertTrue((self.folder / "m-second.csv").exists())
+        self.assertEqual([(row["frame"], row["cloth"], row["level"]) for row in rows],
+                         [("0", "flag", "4"), ("0", "second", "3"), ("1", "flag", "4"), ("1", "second", "3")])
+
+    def test_no_progress_bar_without_a_terminal(self):
+        self.assertEqual(self.run_ok("flag", "--frames", 5, "--level", 4).stderr, "")
+
+    def test_progress_bar_on_a_terminal(self):
+        master, slave = pty.openpty()
+        self.addCleanup(os.close, master)
+        process = subprocess.Popen([WEFT, "run", "flag", "--frames", "200", "--level", "4"], stderr=slave,
+                                   stdout=subprocess.DEVNULL)
+        os.close(slave)
+        shown = b""
+        while select.select([master], [], [], LIMIT_S)[0]:
+            try:
+                shown += os.read(master, 4096)
+            except OSError:  # the other end is closed
+                break
+        self.assertEqual(process.wait(LIMIT_S), 0)
+        self.assertIn(b"/200 frames", shown)
+
+
+class Levels(CliTest):
+    def level(self, *arguments) -> set[str]:
+        return {row["level"] for row in self.stats("zheng2020-wind", "--frames", 2, *arguments)}
+
+    def test_distance_chooses_the_level_by_eq_7(self):
+        # Thresholds 1 and 10 m; a threshold itself belongs to the nearer band.
+        for distance, level in ((0, "6"), (0.8, "6"), (1, "6"), (1.001, "5"), (5, "5"), (10, "5"), (10.001, "4"), (12, "4")):
+            self.assertEqual(self.level("--distance", distance), {level}, distance)
+
+    def test_level_is_taken_as_it_is(self):
+        self.assertEqual(self.level("--level", 4), {"4"})
+
+    def test_default_is_the_scenes_camera(self):
+        self.assertEqual(self.level(), {"6"})
+        self.assertEqual(self.level("--set", "/camera/distance=5"), {"5"})
+
+    def test_levels_stay_within_the_cloths_limits(self):
+        result = weft("run", "flag", "--frames", 1, "--level", 3)
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr, "weft: flag is at level 4, the nearest to 3 that it has\n")
+
+    def test_level_and_distance_exclude_each_other(self):
+        self.assertEqual(weft("run", "flag", "--level", 4, "--distance", 1).returncode, 2)
+
+
+class ExitCodes(CliTest):
+    def test_bad_usage_is_2(self):
+        for arguments in ([], ["fly"], ["run"], ["run", "flag", "--frames", "-1"], ["run", "flag", "--level", "9"],
+                          ["run", "flag", "--frames", "many"], ["run", "flag", "--colour"], ["check"],
+                          ["check", "flag", "--list"]):
+            result = weft(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertNotEqual(result.stderr, "", arguments)
+
+    def test_help_is_0(self):
+        self.assertEqual(weft("run", "--help").returncode, 0)
+
+    def test_bad_scenes_list_all_problems(self):
+        files = sorted(BAD_SCENES.glob("*.json"))
+        self.assertGreaterEqual(len(files), 20)
+        for file in files:
+            problems = file.with_suffix(".txt").read_text().splitlines()
+            count = f"{len(problems)} problem" + ("" if len(problems) == 1 else "s")
+            expected = f"weft: {file}: {count}\n" + "".join(f"  {problem}\n" for problem in problems)
+            for command, code in (("run", 2), ("check", 1)):
+                result = weft(command, file)
+                self.assertEqual((result.returncode, result.stderr, result.stdout), (code, expected, ""), file.name)
+
+    def test_missing_scene(self):
+        result = weft("run", "no-such-scene")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("no-such-scene: No such file or directory (neither a file nor a preset; the presets are flag, ",
+                      result.stderr)
+
+    def test_bad_set(self):
+        result = weft("run", "flag", "--set", "/wind/speed=fast")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('/wind/speed: is "fast"; must be a number from 0 to 100 m/s', result.stderr)
+
+    def test_state_that_goes_bad_is_3_and_keeps_the_good_frames(self):
+        # One substep a frame is far beyond the stability limit of this stiffness.
+        result = weft("run", "flag", "--frames", 600, "--level", 4, "--set", "/integrator/type=symplectic_euler",
+                      "--set", "/integrator/substeps=1", "--out", self.folder / "m.csv")
+        self.assertEqual(result.returncode, 3)
+        self.assertRegex(result.stderr, r"^weft: flag went bad: positions or velocities are not finite after step \d+ ")
+        with open(self.folder / "m.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 0)
+        for key in ("x", "y", "z", "vx", "vy", "vz"):
+            self.assertFalse({row[key] for row in rows} & {"nan", "-nan", "inf", "-inf"}, key)
+
+    def test_outputs_that_cannot_be_written_are_1_before_the_first_step(self):
+        for path, message in ((self.folder / "no" / "m.csv", "cannot be written"), (self.folder / "m.stl", "unknown extension")):
+            result = weft("run", "flag", "--frames", 1000000, "--out", path)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(message, result.stderr)
+        result = weft("run", "flag", "--frames", 1200, "--out", self.folder / "m.glb")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("holds at most 1200 frames; this run has 1201", result.stderr)
+
+
+class Set(CliTest):
+    def test_changes_what_is_simulated(self):
+        still = self.stats("flag", "--frames", 5, "--level", 4, "--set", "/effects=[]", "--set", "/wind=null",
+                           "--set", "/cloths/0/perturbation=0")
+        self.assertEqual({row["kinetic_energy"] for row in still}, {"0"})  # nothing pushes it
+        falling = self.stats("flag", "--frames", 5, "--level", 4, "--set", '/effects=[{"type":"gravity"}]',
+                             "--set", "/wind=null")
+        self.assertGreater(float(falling[-1]["kinetic_energy"]), 0)
+
+
+class Check(CliTest):
+    def test_list(self):
+        result = weft("check", "--list")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()], PRESETS)
+        self.assertIn("Zheng 2020, Fig. 5", result.stdout)
+
+    def test_presets_are_ok(self):
+        for preset in PRESETS:
+            result = weft("check", preset)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertTrue(result.stdout.startswith(f"{preset}: ok\n"))
+
+    def test_file(self):
+        result = weft("check", self.scene_file('{"cloths": [{"name": "towel", "pins": ["top"]}], "notes": "Why not."}'))
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stdout, "scene: ok\n  title: scene\n  note: Why not.\n"
+                                        "  cloth towel: 2 x 2 m, 0.1 kg/m2, levels 4 to 6, at most 65 x 65 nodes, 1 pins\n"
+                                        "  effects: none\n  time step: 0.0166667 s\n")
+
+
+class Version(CliTest):
+    def test_version(self):
+        self.assertRegex(weft("version").stdout, r"^weft \d+\.\d+\.\d+, protocol weft\.v1\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()

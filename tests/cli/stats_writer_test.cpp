@@ -1,0 +1,76 @@
+// --stats: the header, and figures that follow from the scene by hand.
+#include <sstream>
+
+#include "cli/stats_writer.h"
+#include "fixtures.h"
+
+namespace weft::cli::test {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::vector<Row> rows_of(const std::string& text) {
+  std::vector<Row> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    auto& row = rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+  }
+  return rows;
+}
+
+using StatsWriterTest = OutputTest;
+
+// A free sheet of 2 m x 2 m, 0.1 kg/m2, one step of 1/60 s in one substep: symplectic Euler gives
+// v = g dt and, with n = 1, drops g dt2: v = 0.1635 m/s, y = -0.002725 m.
+TEST_F(StatsWriterTest, OneStepOfFreeFall) {
+  SimulationDescription description;
+  description.cloths.emplace_back();
+  description.effects.emplace_back(GravityEffect{});
+  description.integrator = SymplecticEulerDescription{1, 0.9};
+  Simulation<float> simulation(description);
+  StatsWriter writer(path("stats.csv"), false);
+  writer.write(0, simulation);
+  simulation.step();
+  writer.write(1, simulation);
+  writer.finish();
+  const std::vector<Row> rows = rows_of(bytes("stats.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0], (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy",
+                          "potential_energy", "max_strain", "mean_strain", "nodes_in_contact"}));
+  ASSERT_EQ(rows[1].size(), 10u);
+  EXPECT_EQ(rows[1][0], "0");
+  EXPECT_EQ(rows[1][1], "0");
+  EXPECT_EQ(rows[1][2], "6");
+  EXPECT_EQ(rows[1][5], "0");
+  EXPECT_EQ(rows[2][0], "1");
+  EXPECT_EQ(rows[2][1], "0.016666666666666666");
+  EXPECT_EQ(rows[2][3], "1");
+  EXPECT_GT(std::stod(rows[2][4]), 0);
+  EXPECT_NEAR(std::stod(rows[2][5]), 0.5 * 0.4 * 0.1635 * 0.1635, 1e-7);  // m v2 / 2
+  EXPECT_NEAR(std::stod(rows[2][6]), -0.4 * 9.81 * 0.002725, 1e-5);       // m g y; float positions
+  EXPECT_NEAR(std::stod(rows[2][7]), 0, 1e-5);
+  EXPECT_EQ(rows[2][9], "0");
+}
+
+TEST_F(StatsWriterTest, SeveralClothsHaveALastColumnWithTheirNames) {
+  SimulationDescription description;
+  description.cloths.resize(2);
+  description.cloths[0].name = "left";
+  description.cloths[1].name = "right";
+  description.cloths[1].initial_level = 4;
+  const Simulation<float> simulation(description);
+  StatsWriter writer(path("stats.csv"), true);
+  writer.write(0, simulation);
+  writer.finish();
+  const std::vector<Row> rows = rows_of(bytes("stats.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].back(), "cloth");
+  EXPECT_EQ(rows[1].back(), "left");
+  EXPECT_EQ(rows[2].back(), "right");
+  EXPECT_EQ(rows[2][2], "4");
+}
+
+}  // namespace
+}  // namespace weft::cli::test
