@@ -48,17 +48,20 @@ export class BallHand {
     const hit = this.#hit(event.clientX, event.clientY);
     if (!hit) return;
     const {ball} = hit.object.userData;
-    const facing = this.stage.camera.getWorldDirection(new Vector3());
+    const centre = hit.object.position.clone();
     this.drag = {
       pointer: event.pointerId,
       ball: ball.ball,
-      plane: new Plane().setFromNormalAndCoplanarPoint(facing, hit.point),
-      offset: hit.object.position.clone().sub(hit.point),  // the hand keeps its place on the ball
+      plane: new Plane().setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new Vector3()), centre),
+      offset: new Vector3(),
       speed: new ThrowSpeed(),
-      sentMs: 0,
       pending: null,
+      timer: null,
       moved: false,
     };
+    const hand = new Vector3(...this.#placeAt(event));
+    this.drag.offset.subVectors(centre, hand);  // it keeps its place on the ball
+    this.drag.speed.add(centre.toArray(), event.timeStamp);
     this.canvas.setPointerCapture(event.pointerId);
     this.actions.holding(true);
     this.actions.taken(ball.ball);
@@ -71,27 +74,37 @@ export class BallHand {
       return;
     }
     if (event.pointerId !== this.drag.pointer) return;
-    this.#aim(event.clientX, event.clientY);
-    const point = this.raycaster.ray.intersectPlane(this.drag.plane, new Vector3());
-    if (!point) return;  // the plane is behind the camera
-    const position = point.add(this.drag.offset).toArray();
+    // A slow picture bundles the hand's movements into one event: all of them count for the speed of a throw.
+    const moves = event.getCoalescedEvents?.() ?? [];
+    for (const each of moves.length > 0 ? moves : [event]) {
+      const position = this.#placeAt(each);
+      if (!position) continue;  // the plane is behind the camera
+      this.drag.speed.add(position, each.timeStamp);
+      this.drag.pending = position;
+    }
     this.drag.moved = true;
-    this.drag.speed.add(position, event.timeStamp);
-    this.drag.pending = position;
-    this.#flush(event.timeStamp);
+    if (this.drag.timer === null) this.#send();
   }
 
-  #flush(nowMs) {
-    if (!this.drag.pending || nowMs - this.drag.sentMs < kMoveMs) return;
-    this.actions.move(this.drag.ball, this.drag.pending);
-    this.drag.sentMs = nowMs;
-    this.drag.pending = null;
+  #placeAt({clientX, clientY}) {
+    this.#aim(clientX, clientY);
+    return this.raycaster.ray.intersectPlane(this.drag.plane, new Vector3())?.add(this.drag.offset).toArray();
+  }
+
+  /** Sends where the ball is wanted, now and then as long as that changes. */
+  #send(drag = this.drag) {
+    drag.timer = null;
+    if (!drag.pending) return;
+    this.actions.move(drag.ball, drag.pending);
+    drag.pending = null;
+    drag.timer = setTimeout(() => this.#send(drag), kMoveMs);
   }
 
   #release(event, mayThrow) {
     const {drag} = this;
     if (!drag || event.pointerId !== drag.pointer) return;
     this.drag = null;
+    clearTimeout(drag.timer);
     this.actions.holding(false);
     this.canvas.style.cursor = '';
     if (!drag.moved) return;

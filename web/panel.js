@@ -2,6 +2,7 @@ import {anglesOf, directionOf} from './wind_angles.js';
 
 const byId = (id) => document.getElementById(id);
 const kWindMs = 60;  // between two wind.set while a slider moves
+const kHoldMs = 600;  // what the viewer has set is not overwritten by what the server still says
 
 /**
  * The controls. They show what the server says, and tell `actions` what the viewer wants; they change nothing by themselves.
@@ -26,6 +27,8 @@ export class Panel {
     this.actions = actions;
     this.paused = false;
     this.ballIds = [];
+    this.ballHeldUntilMs = 0;
+    this.windHeldUntilMs = 0;
     this.#wireButtons();
     this.#wireWind();
     this.#wireBalls();
@@ -75,7 +78,7 @@ export class Panel {
     byId('wind-absent').hidden = available;
     this.#enableWind();
     // A slider under the viewer's hand is not pulled away.
-    if (!byId('wind').contains(document.activeElement) || performance.now() > (this.windTouchedMs ?? 0) + 600) {
+    if (performance.now() > this.windHeldUntilMs) {
       const {heading, tilt} = anglesOf(wind.direction);
       byId('wind-speed').max = String(Math.max(20, Math.ceil(wind.speed)));
       byId('wind-speed').value = String(wind.speed);
@@ -97,8 +100,9 @@ export class Panel {
     this.#enableBalls();
   }
 
-  /** Place of the chosen ball; a field being typed in is left alone. */
+  /** Place of the chosen ball; a field being typed in is left alone, and so are all until the server had time to move the ball. */
   setBallPlace(position) {
+    if (performance.now() < this.ballHeldUntilMs) return;
     for (const input of byId('ball-place').querySelectorAll('input')) {
       const text = position ? position[Number(input.dataset.axis)].toFixed(2) : '';
       if (input !== document.activeElement && input.value !== text) input.value = text;
@@ -147,7 +151,7 @@ export class Panel {
         directionOf(Number(byId('wind-heading').value), Number(byId('wind-tilt').value)), Number(byId('wind-speed').value));
     };
     byId('wind').addEventListener('input', () => {
-      this.windTouchedMs = performance.now();
+      this.windHeldUntilMs = performance.now() + kHoldMs;
       this.#showWind();
       timer ??= setTimeout(send, kWindMs);
     });
@@ -165,10 +169,15 @@ export class Panel {
     byId('ball-add').addEventListener('click', () => actions.addBall());
     byId('ball-remove').addEventListener('click', () => actions.removeBall(this.#chosenBall()));
     byId('ball-throw').addEventListener('click', () => actions.throwBall(this.#chosenBall()));
-    byId('ball').addEventListener('change', () => actions.chooseBall(this.#chosenBall()));
+    byId('ball').addEventListener('change', () => {
+      this.ballHeldUntilMs = 0;
+      actions.chooseBall(this.#chosenBall());
+    });
     byId('ball-place').addEventListener('change', () => {
       const values = [...byId('ball-place').querySelectorAll('input')].map((input) => input.valueAsNumber);
-      if (values.every(Number.isFinite)) actions.moveBall(this.#chosenBall(), values);
+      if (!values.every(Number.isFinite)) return;
+      this.ballHeldUntilMs = performance.now() + kHoldMs;
+      actions.moveBall(this.#chosenBall(), values);
     });
   }
 

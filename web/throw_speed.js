@@ -1,6 +1,6 @@
 const kWindowMs = 100;
 /** A hand that rests this long before letting go does not throw. */
-const kRestMs = 60;
+const kRestMs = 100;
 
 /** Watches where a dragged thing has been, to tell how fast it moves when it is let go. */
 export class ThrowSpeed {

@@ -11,14 +11,15 @@ const kScene = {
   level_policy: {thresholds: [1, 10], levels: [6, 5, 4], hysteresis: 0}, camera: {distance: 5, level: [5]},
 };
 
-let page, standIn, sockets, socket;
+const http = createServer((request, response) => response.writeHead(404).end());
+const sockets = new WebSocketServer({server: http, handleProtocols: () => 'weft.v1'});
+let page, socket;
+
+const say = (message) => socket.send(JSON.stringify(message));
+
 before(async () => {
-  const http = createServer((request, response) => response.writeHead(404).end());
-  sockets = new WebSocketServer({server: http, handleProtocols: () => 'weft.v1'});
   await new Promise((resolve) => http.listen(0, '127.0.0.1', resolve));
-  standIn = `ws://127.0.0.1:${http.address().port}`;
-  after(() => (sockets.clients.forEach((each) => each.terminate()), http.close()));
-  const say = (message) => socket.send(JSON.stringify(message));
+  const standIn = `ws://127.0.0.1:${http.address().port}`;
   sockets.on('connection', (accepted) => {
     socket = accepted;
     socket.on('message', (data) => {
@@ -37,7 +38,11 @@ before(async () => {
   await until(page, () => weft.stats.connected);
 });
 
-const say = (message) => socket.send(JSON.stringify(message));
+after(() => {
+  for (const each of sockets.clients) each.terminate();
+  http.close();
+});
+
 const notice = (text) => page.waitForSelector(`#notice:not([hidden]) >> text=${text}`);
 
 test('a slow clock is told until it is in time again', async () => {
