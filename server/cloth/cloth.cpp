@@ -1,6 +1,7 @@
 #include "cloth/cloth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 

@@ -16,6 +16,7 @@ constexpr int kProjections = 4;
 /// A ball where it is at the end of the substep.
 struct PlacedBall {
   Vec3 centre;
+  double radius;
   double squared_radius;
 };
 
@@ -34,7 +35,8 @@ class Node {
   /// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up
   /// outside.
   void put_outside(const PlacedBall& ball, const Vec3& from, const Vec3& direction, double distance) {
-    double margin = (from.cwiseAbs().sum() + distance) * double(std::numeric_limits<Real>::epsilon()) / 2;
+    double margin =
+        (from.cwiseAbs().sum() + distance + ball.radius) * double(std::numeric_limits<Real>::epsilon()) / 2;
     do {
       set_position(from + (distance + margin) * direction);
       margin *= 2;
@@ -93,7 +95,7 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
     for (std::size_t b = 0; b < placed.size(); ++b) {
       if (!node.inside(placed[b])) continue;
       const Vec3 normal = outwards(placed[b].centre, node.position());
-      node.put_outside(placed[b], placed[b].centre, normal, balls[b].radius);
+      node.put_outside(placed[b], placed[b].centre, normal, placed[b].radius);
       node.stop_inward_velocity(balls[b], normal);
       middle += placed[b].centre;
       ++found;
@@ -124,7 +126,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
   if (pairs.empty()) return 0;
   std::vector<PlacedBall> placed;
   placed.reserve(balls.size());
-  for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius * ball.radius});
+  for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius, ball.radius * ball.radius});
 
   const Grid& grid = particles.grid();
   const kernels::Components<const Real> position = kernels::components(particles.position);

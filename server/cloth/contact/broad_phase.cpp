@@ -139,14 +139,17 @@ struct BroadPhase<Real>::Impl {
     return true;
   }
 
-  void fit_balls(const std::vector<Ball>& balls, double from, double to) {
+  /// False if a ball has no finite place.
+  bool fit_balls(const std::vector<Ball>& balls, double from, double to) {
     ball_tree.resize(balls.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
       const Vec3 a = balls[i].at(from), b = balls[i].at(to);
+      if (!a.allFinite() || !b.allFinite()) return false;
       const Vec3 reach = Vec3::Constant(balls[i].radius);
       ball_tree.set(i, a.cwiseMin(b) - reach, a.cwiseMax(b) + reach);
     }
     ball_tree.update();
+    return true;
   }
 
   std::vector<Tile> tiles;
@@ -174,8 +177,8 @@ const std::vector<TileBallPair>& BroadPhase<Real>::find_pairs(const VectorField<
                                                               const std::vector<Ball>& balls, double from,
                                                               double to) {
   impl_->pairs.clear();
-  if (balls.empty() || !impl_->fit_tiles(position)) return impl_->pairs;
-  impl_->fit_balls(balls, from, to);
+  // A tree of boxes that are not finite need not end; the step's own check reports such a state.
+  if (balls.empty() || !impl_->fit_tiles(position) || !impl_->fit_balls(balls, from, to)) return impl_->pairs;
   impl_->tile_tree.manager().collide(&impl_->ball_tree.manager(), &impl_->pairs, collect);
   // The tree's traversal depends on its history; the contacts must not.
   std::sort(impl_->pairs.begin(), impl_->pairs.end(), [](const TileBallPair& a, const TileBallPair& b) {

@@ -8,7 +8,7 @@ namespace weft {
 namespace {
 
 template <class Real>
-kernels::Air<Real> air_of(const Wind& wind) {
+kernels::Uniform<Real> air_of(const Wind& wind) {
   const Vec3 v = wind.velocity();
   return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
 }

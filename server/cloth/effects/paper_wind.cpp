@@ -22,8 +22,8 @@ void PaperWind<Real>::add_forces(const Particles<Real>& particles, const EffectC
   if (context.wind->speed == 0) return;
   const kernels::Push<Real> push = push_of<Real>(context, parameters_.factor);
   const Vec3& n = context.wind->direction;
-  const kernels::Air<Real> direction{static_cast<Real>(n.x()), static_cast<Real>(n.y()),
-                                     static_cast<Real>(n.z())};
+  const kernels::Uniform<Real> direction{static_cast<Real>(n.x()), static_cast<Real>(n.y()),
+                                         static_cast<Real>(n.z())};
   if (parameters_.along_normal) {
     kernels::add_push_along_normals(particles.grid(), kernels::components(particles.position),
                                     particles.mass.row(0), push, direction, kernels::components(force));

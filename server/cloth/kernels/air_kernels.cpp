@@ -38,7 +38,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void pressure_block(const Components<const Real>& p,
                                                   const Components<const Real>& v, std::size_t first,
-                                                  std::size_t stride, int count, const Air<Real>& air,
+                                                  std::size_t stride, int count, const Uniform<Real>& air,
                                                   Real factor, Real* __restrict fx, Real* __restrict fy,
                                                   Real* __restrict fz) {
   const Real smallest = std::numeric_limits<Real>::min();
@@ -68,7 +68,7 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline void add_pressure(const Grid& grid, const Components<const Real>& p,
-                                                const Components<const Real>& v, const Air<Real>& air,
+                                                const Components<const Real>& v, const Uniform<Real>& air,
                                                 Real factor, const Components<Real>& force) {
   alignas(64) Real work[3][kRowAlign + kBlock + kRowAlign] = {};
   Real* const fx = work[0] + kRowAlign;
@@ -92,7 +92,7 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline Real max_flow(const Grid& grid, const Components<const Real>& p,
-                                            const Components<const Real>& v, const Air<Real>& air) {
+                                            const Components<const Real>& v, const Uniform<Real>& air) {
   // One running maximum per lane: a single one would have to be compared in order.
   alignas(64) Real most[kBlock] = {};
   const auto stride = static_cast<std::size_t>(grid.stride);
@@ -117,9 +117,9 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void normals_block(const Components<const Real>& p, std::size_t first,
                                                  int count, std::size_t left, std::size_t right,
-                                                 std::size_t up, std::size_t down, const Air<Real>& direction,
-                                                 const Real* __restrict mass, const Push<Real>& push,
-                                                 const Components<Real>& force) {
+                                                 std::size_t up, std::size_t down,
+                                                 const Uniform<Real>& direction, const Real* __restrict mass,
+                                                 const Push<Real>& push, const Components<Real>& force) {
   const Real smallest = std::numeric_limits<Real>::min();
   Real* __restrict fx = force.x + first;
   Real* __restrict fy = force.y + first;
@@ -146,7 +146,8 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void add_normals(const Grid& grid, const Components<const Real>& p,
                                                const Real* mass, const Push<Real>& push,
-                                               const Air<Real>& direction, const Components<Real>& force) {
+                                               const Uniform<Real>& direction,
+                                               const Components<Real>& force) {
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t up = r > 0 ? stride : 0;
@@ -165,7 +166,7 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline void push_all(const Grid& grid, const Real* mass, const Push<Real>& push,
-                                            const Air<Real>& direction, const Components<Real>& force) {
+                                            const Uniform<Real>& direction, const Components<Real>& force) {
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t first = grid.index(r, 0);
     push_row(force.x + first, mass + first, push, direction.x, grid.cols);
@@ -177,42 +178,42 @@ template <class Real>
 }  // namespace
 
 WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const float> position,
-                                        Components<const float> velocity, const Air<float>& air, float factor,
-                                        Components<float> force) {
+                                        Components<const float> velocity, const Uniform<float>& air,
+                                        float factor, Components<float> force) {
   add_pressure(grid, position, velocity, air, factor, force);
 }
 WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const double> position,
-                                        Components<const double> velocity, const Air<double>& air,
+                                        Components<const double> velocity, const Uniform<double>& air,
                                         double factor, Components<double> force) {
   add_pressure(grid, position, velocity, air, factor, force);
 }
 
 WEFT_MULTIVERSION float max_air_flow(const Grid& grid, Components<const float> position,
-                                     Components<const float> velocity, const Air<float>& air) {
+                                     Components<const float> velocity, const Uniform<float>& air) {
   return max_flow(grid, position, velocity, air);
 }
 WEFT_MULTIVERSION double max_air_flow(const Grid& grid, Components<const double> position,
-                                      Components<const double> velocity, const Air<double>& air) {
+                                      Components<const double> velocity, const Uniform<double>& air) {
   return max_flow(grid, position, velocity, air);
 }
 
 WEFT_MULTIVERSION void add_push(const Grid& grid, const float* mass, const Push<float>& push,
-                                const Air<float>& direction, Components<float> force) {
+                                const Uniform<float>& direction, Components<float> force) {
   push_all(grid, mass, push, direction, force);
 }
 WEFT_MULTIVERSION void add_push(const Grid& grid, const double* mass, const Push<double>& push,
-                                const Air<double>& direction, Components<double> force) {
+                                const Uniform<double>& direction, Components<double> force) {
   push_all(grid, mass, push, direction, force);
 }
 
 WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const float> position,
                                               const float* mass, const Push<float>& push,
-                                              const Air<float>& direction, Components<float> force) {
+                                              const Uniform<float>& direction, Components<float> force) {
   add_normals(grid, position, mass, push, direction, force);
 }
 WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const double> position,
                                               const double* mass, const Push<double>& push,
-                                              const Air<double>& direction, Components<double> force) {
+                                              const Uniform<double>& direction, Components<double> force) {
   add_normals(grid, position, mass, push, direction, force);
 }
 

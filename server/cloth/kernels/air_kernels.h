@@ -3,25 +3,25 @@
 
 namespace weft::kernels {
 
-/// Air moving with one velocity everywhere.
+/// A vector that is the same everywhere: the air's velocity, the wind's direction.
 template <class Real>
-struct Air {
-  Real x, y, z;  ///< m/s
+struct Uniform {
+  Real x, y, z;
 };
 
 /// Flat-plate pressure on every face (cell), a quarter of it on each corner: F = factor |w.A| (w.A) A / |A|^2
 /// with A the face's area vector, half the cross product of its diagonals, and w the air's velocity relative
 /// to the mean of the corners'. factor = 1/2 rho C.
 void add_air_pressure(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                      const Air<float>& air, float factor, Components<float> force);
+                      const Uniform<float>& air, float factor, Components<float> force);
 void add_air_pressure(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                      const Air<double>& air, double factor, Components<double> force);
+                      const Uniform<double>& air, double factor, Components<double> force);
 
 /// Largest |w.A| of any face, m3/s.
 float max_air_flow(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                   const Air<float>& air);
+                   const Uniform<float>& air);
 double max_air_flow(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                    const Air<double>& air);
+                    const Uniform<double>& air);
 
 /// Strength of the paper's wind on a node, N: per_node + per_mass * mass.
 template <class Real>
@@ -31,16 +31,18 @@ struct Push {
 };
 
 /// force += push * direction on every node.
-void add_push(const Grid& grid, const float* mass, const Push<float>& push, const Air<float>& direction,
+void add_push(const Grid& grid, const float* mass, const Push<float>& push, const Uniform<float>& direction,
               Components<float> force);
-void add_push(const Grid& grid, const double* mass, const Push<double>& push, const Air<double>& direction,
-              Components<double> force);
+void add_push(const Grid& grid, const double* mass, const Push<double>& push,
+              const Uniform<double>& direction, Components<double> force);
 
 /// force += push * N, N the unit normal of the surface at the node (from its four neighbours, fewer on the
 /// border), turned towards `direction`; nothing where the neighbours span no surface.
 void add_push_along_normals(const Grid& grid, Components<const float> position, const float* mass,
-                            const Push<float>& push, const Air<float>& direction, Components<float> force);
+                            const Push<float>& push, const Uniform<float>& direction,
+                            Components<float> force);
 void add_push_along_normals(const Grid& grid, Components<const double> position, const double* mass,
-                            const Push<double>& push, const Air<double>& direction, Components<double> force);
+                            const Push<double>& push, const Uniform<double>& direction,
+                            Components<double> force);
 
 }  // namespace weft::kernels
