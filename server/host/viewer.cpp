@@ -32,14 +32,16 @@ bool Viewer::overflowed() const {
 
 void Viewer::send(Text text) {
   std::unique_lock lock(mutex_);
-  push(std::move(text));
+  // One that does not read is never found idle: what is being sent to it does not get through.
+  if (!push(std::move(text))) return wake_now(std::move(lock));
   wake_if_idle(std::move(lock));
 }
 
 void Viewer::send(std::uint64_t visit, Text text) {
   std::unique_lock lock(mutex_);
   if (visit != visit_) return;
-  push(std::move(text));
+  // One that does not read is never found idle: what is being sent to it does not get through.
+  if (!push(std::move(text))) return wake_now(std::move(lock));
   wake_if_idle(std::move(lock));
 }
 
@@ -79,12 +81,10 @@ std::uint64_t Viewer::dropped() const {
   return dropped_;
 }
 
-void Viewer::push(Text text) {
-  if (texts_.size() >= kMaxTexts) {
-    overflowed_ = true;
-  } else {
-    texts_.push_back(std::move(text));
-  }
+bool Viewer::push(Text text) {
+  if (texts_.size() >= kMaxTexts) return std::exchange(overflowed_, true);
+  texts_.push_back(std::move(text));
+  return true;
 }
 
 bool Viewer::may_send_frame() const {
@@ -93,6 +93,10 @@ bool Viewer::may_send_frame() const {
 
 void Viewer::wake_if_idle(std::unique_lock<std::mutex> lock) {
   if (!idle_ || !(overflowed_ || !texts_.empty() || may_send_frame())) return;
+  wake_now(std::move(lock));
+}
+
+void Viewer::wake_now(std::unique_lock<std::mutex> lock) {
   idle_ = false;
   const auto wake = wake_;
   lock.unlock();

@@ -36,8 +36,8 @@ class Viewer {
   /// Control messages that may wait; the viewer does not read when there are more.
   static constexpr std::size_t kMaxTexts = 256;
 
-  /// `wake` is called, on the filling thread, when there is something to send after take() returned nothing.
-  /// Set it before the first take().
+  /// `wake` is called, on the filling thread, when there is something to send after take() returned nothing,
+  /// and when the outbox overflows. Set it before the first take().
   void on_wake(std::function<void()> wake);
   /// The next message: control before frames, a frame only while fewer than the window are unacknowledged.
   std::optional<Outgoing> take();
@@ -63,9 +63,11 @@ class Viewer {
 
  private:
   // Both need mutex_.
-  void push(Text text);
+  /// False if the outbox overflows by it.
+  bool push(Text text);
   bool may_send_frame() const;
   void wake_if_idle(std::unique_lock<std::mutex> lock);
+  void wake_now(std::unique_lock<std::mutex> lock);
 
   mutable std::mutex mutex_;
   std::function<void()> wake_;

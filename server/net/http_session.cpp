@@ -128,6 +128,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (!http::token_list(request[http::field::sec_websocket_protocol]).exists(protocol::kSubprotocol)) {
       return write(plain(http::status::bad_request, "Sec-WebSocket-Protocol must offer weft.v1\n"), last);
     }
+    if (buffer_.size() > 0) {
+      return write(plain(http::status::bad_request, "nothing may be sent before the upgrade is answered\n"),
+                   true);
+    }
     if (context_.stopping || !scene->reserve()) {
       return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
                    last);

@@ -109,6 +109,10 @@ void Server::Impl::stop() {
 Server::Server(host::Host& host, ServerOptions options)
     : impl_(std::make_unique<Impl>(host, std::move(options))) {
   impl_->listen();
+  // Before anybody is told the address: from then on a signal must end it in order.
+  impl_->signals.add(SIGINT);
+  impl_->signals.add(SIGTERM);
+  impl_->wait_for_signal();
 }
 
 Server::~Server() {
@@ -127,9 +131,6 @@ std::string Server::address() const {
 }
 
 void Server::run() {
-  impl_->signals.add(SIGINT);
-  impl_->signals.add(SIGTERM);
-  impl_->wait_for_signal();
   impl_->accept();
   impl_->io.run();
 }

@@ -146,12 +146,11 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 
   /// Writes the next message, unless one is being written.
   void pump() {
-    if (!accepted_ || writing_ || close_sent_) return;
     if (!closing_ && viewer().overflowed()) {
       spdlog::warn("viewer {}: does not read its control messages", peer_);
       close(kDoesNotRead, "control messages are not read", false);
-      return;
     }
+    if (!accepted_ || writing_ || close_sent_) return;
     if (closing_ && !drain_) return send_close();
     auto next = viewer().take();
     if (closing_ && !(next && next->text)) return send_close();

@@ -120,10 +120,16 @@ TEST(Viewer, AFrameBeyondTheWindowWakesWhenItIsAcknowledged) {
 
 TEST(Viewer, OverflowsWhenMoreThan256ControlMessagesWait) {
   Viewer viewer;
+  int wakes = 0;
+  viewer.on_wake([&] { ++wakes; });
   for (int i = 0; i < 256; ++i) viewer.send(text("x"));
   EXPECT_FALSE(viewer.overflowed());  // PROTOCOL.md section 6: more than 256
+  EXPECT_EQ(wakes, 0);
   viewer.send(text("x"));
   EXPECT_TRUE(viewer.overflowed());
+  EXPECT_EQ(wakes, 1);  // although nobody found the outbox empty before
+  viewer.send(text("x"));
+  EXPECT_EQ(wakes, 1);
 }
 
 }  // namespace

@@ -1,0 +1,137 @@
+"""The server's HTTP side: page, list, health, and everything it refuses."""
+import json
+import socket
+import unittest
+
+from serving import GENEROUS, SCENES, Server, page_directory
+
+
+class Http(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.page = cls.enterClassContext(page_directory())
+        cls.server = cls.enterClassContext(
+            Server(SCENES / "hung.json", SCENES / "still.json", "--web", cls.page, "--allow-origin", "https://show.example"))
+
+    @classmethod
+    def enterClassContext(cls, manager):  # of unittest from Python 3.11 on
+        result = manager.__enter__()
+        cls.addClassCleanup(manager.__exit__, None, None, None)
+        return result
+
+    def test_health(self):
+        status, headers, body = self.server.get("/healthz")
+        self.assertEqual((status, body), (200, b"ok"))
+        self.assertEqual(headers["cache-control"], "no-store")
+
+    def test_list_of_scenes(self):
+        status, headers, body = self.server.get("/v1/scenes")
+        self.assertEqual(status, 200)
+        self.assertEqual(headers["content-type"], "application/json")
+        self.assertEqual(json.loads(body)["scenes"], [
+            {"name": "hung", "title": "A soft cloth in wind, with Table 1's thresholds", "viewers": 0, "cloths": 1},
+            {"name": "still", "title": "A small cloth without wind", "viewers": 0, "cloths": 1}])
+
+    def test_page_and_its_files(self):
+        for target, media_type, content in [("/", "text/html; charset=utf-8", b"<!doctype html><title>Page</title>"),
+                                            ("/?scene=hung", "text/html; charset=utf-8", b"<!doctype html><title>Page</title>"),
+                                            ("/main.js", "text/javascript; charset=utf-8", b"export const answer = 42;"),
+                                            ("/data.json", "application/json", b"{}"),
+                                            ("/code.wasm", "application/wasm", b"\0asm")]:
+            with self.subTest(target):
+                status, headers, body = self.server.get(target)
+                self.assertEqual((status, body), (200, content))
+                self.assertEqual(headers["content-type"], media_type)
+                self.assertEqual(headers["x-content-type-options"], "nosniff")
+                self.assertIn("default-src 'self'", headers["content-security-policy"])
+
+    def test_unchanged_files_are_not_sent_again(self):
+        _, headers, _ = self.server.get("/main.js")
+        status, again, body = self.server.get("/main.js", If_None_Match=headers["etag"])
+        self.assertEqual((status, body), (304, b""))
+        self.assertEqual(again["etag"], headers["etag"])
+        self.assertEqual(self.server.get("/main.js", If_None_Match='"other"')[0], 200)
+
+    def test_head_has_the_headers_alone(self):
+        status, headers, body = self.server.get("/main.js", method="HEAD")
+        self.assertEqual((status, body), (200, b""))
+        self.assertEqual(headers["content-length"], "25")
+
+    def test_paths_out_of_the_page_are_not_found(self):
+        for target in ["/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/sub/../../secret.txt", "/.hidden",
+                       "//etc/passwd", "/main.js%00.html", "/none.js", "/v1", "/v1/scenes/none", "/v1/scenes/../healthz"]:
+            with self.subTest(target):
+                status, _, body = self.server.get(target)
+                self.assertEqual(status, 404)
+                self.assertNotIn(b"secret", body)
+
+    def test_other_methods_are_not_allowed(self):
+        for method in ["POST", "PUT", "DELETE", "OPTIONS", "TRACE", "PATCH"]:
+            with self.subTest(method):
+                status, headers, _ = self.server.get("/", method=method)
+                self.assertEqual(status, 405)
+                self.assertEqual(headers["allow"], "GET, HEAD")
+
+    def test_a_request_with_a_body_is_answered_and_ended(self):
+        received = self.server.request("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000\r\n\r\nabc")
+        self.assertTrue(received.startswith(b"HTTP/1.1 405 "), received[:60])
+
+    def test_what_is_no_request_is_400(self):
+        for text in ["hello\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GET /\r\n\r\n", "\x16\x03\x01\x02\x00\x01\r\n\r\n"]:
+            with self.subTest(text):
+                self.assertTrue(self.server.request(text).startswith(b"HTTP/1.1 400 "))
+
+    def test_a_header_beyond_8_kib_is_431(self):
+        received = self.server.request("GET / HTTP/1.1\r\nHost: x\r\nX: " + "a" * 9000 + "\r\n\r\n")
+        self.assertTrue(received.startswith(b"HTTP/1.1 431 "), received[:60])
+
+    def test_several_requests_on_one_connection(self):
+        received = self.server.request("GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" * 2 +
+                                       "GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        self.assertEqual(received.count(b"HTTP/1.1 200 OK"), 3)
+
+    def test_one_that_never_ends_its_header_is_cut(self):
+        with socket.create_connection(("127.0.0.1", self.server.port), GENEROUS) as slow:
+            slow.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
+            self.assertEqual(slow.recv(1), b"")  # after the server's 10 s
+
+    # --- The upgrade to a WebSocket ---
+
+    def test_upgrade(self):
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung"), 101)
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung?x=1", Sec_WebSocket_Protocol="other, weft.v1"), 101)
+
+    def test_upgrade_without_the_subprotocol_is_400(self):
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Protocol=None), 400)
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Protocol="weft.v2"), 400)
+
+    def test_upgrade_of_an_unknown_scene_is_404(self):
+        self.assertEqual(self.server.upgrade("/v1/scenes/none"), 404)
+        self.assertEqual(self.server.upgrade("/v1/scenes/"), 200)  # the list, which is no WebSocket
+
+    def test_a_scene_without_upgrade_is_426(self):
+        status, headers, _ = self.server.get("/v1/scenes/hung")
+        self.assertEqual(status, 426)
+        self.assertEqual(headers["upgrade"], "websocket")
+
+    def test_upgrade_from_foreign_pages_is_403(self):
+        for origin in ["https://evil.example", "null", f"http://127.0.0.1.evil.example:{self.server.port}",
+                       "https://show.example.evil.example", "http://show.example"]:
+            with self.subTest(origin):
+                self.assertEqual(self.server.upgrade("/v1/scenes/hung", Origin=origin), 403)
+
+    def test_upgrade_from_allowed_pages(self):
+        for origin in ["http://localhost:3000", f"http://127.0.0.1:{self.server.port}", "https://show.example"]:
+            with self.subTest(origin):
+                self.assertEqual(self.server.upgrade("/v1/scenes/hung", Origin=origin), 101)
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Host="weft.example", Origin="https://weft.example"), 101)
+
+    def test_the_list_may_be_read_by_allowed_pages_alone(self):
+        _, headers, _ = self.server.get("/v1/scenes", Origin="https://show.example")
+        self.assertEqual(headers["access-control-allow-origin"], "https://show.example")
+        _, headers, _ = self.server.get("/v1/scenes", Origin="https://evil.example")
+        self.assertNotIn("access-control-allow-origin", headers)
+
+
+if __name__ == "__main__":
+    unittest.main()
