@@ -22,7 +22,8 @@ ALLOWED = {
 
 # Headers that would bring files, sockets, JSON or logging into the simulation; sockets and logging into the formats.
 FORBIDDEN_LIBRARIES = {
-    "cloth": ("nlohmann/", "boost/", "spdlog/", "CLI/", "tiny_gltf", "filesystem", "fstream", "iostream", "sys/", "netinet/"),
+    "cloth": ("nlohmann/", "boost/", "spdlog/", "CLI/", "tiny_gltf", "filesystem", "fstream", "iostream", "sys/",
+              "netinet/"),
     "protocol": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "Eigen/", "sys/", "netinet/"),
     "scene": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "sys/", "netinet/"),
 }
@@ -42,7 +43,7 @@ def part_of(path, root):
 
 
 def included_part(name, file, root):
-    """The part that an include names: found next to the file, under server/ or under the root, else by its first word."""
+    """The part an include names: found next to the file, under server/ or under the root, else by its first word."""
     for base in (file.parent, root / "server", root):
         if (base / name).is_file():
             return part_of(base / name, root)
@@ -53,8 +54,10 @@ def included_part(name, file, root):
 def violations(root):
     """Every include that breaks the order, as 'file:line: why'."""
     found = []
-    files = [f for top in ("server", "protocol") for f in sorted((root / top).rglob("*")) if f.suffix in (".h", ".cpp")]
+    files = [f for top in ("server", "protocol") for f in sorted((root / top).rglob("*"))]
     for file in files:
+        if file.suffix not in (".h", ".cpp"):
+            continue
         part = part_of(file, root)
         if part not in ALLOWED:
             found.append(f"{file.relative_to(root)}: in no part of the house")
@@ -79,7 +82,7 @@ class LayeringTest(unittest.TestCase):
 
     def test_every_part_is_looked_at(self):
         seen = {part_of(f, ROOT) for top in ("server", "protocol") for f in (ROOT / top).rglob("*.h")}
-        self.assertLessEqual({"cloth", "scene", "protocol"}, seen)
+        self.assertEqual(seen, set(ALLOWED))
 
 
 class SelfTest(unittest.TestCase):
@@ -109,7 +112,8 @@ class SelfTest(unittest.TestCase):
         for part, name in (("cloth", "scene/scene.h"), ("cloth", "protocol/frame.h"), ("scene", "host/host.h"),
                            ("scene", "protocol/frame.h"), ("host", "net/server.h"), ("net", "cli/commands.h")):
             found = self.check({f"server/{part}/a.cpp": f'#include <vector>\n  #  include "{name}"\n'})
-            self.assertEqual(found, [f"server/{part}/a.cpp:2: {part} must not know {name.split('/')[0]} ({name})"])
+            upper = name.split("/")[0]
+            self.assertEqual(found, [f"server/{part}/a.cpp:2: {part} must not know {upper} ({name})"])
 
     def test_protocol_knows_nobody(self):
         for name in ("cloth/grid.h", "scene/scene.h", "host/host.h"):
