@@ -2,6 +2,8 @@ import {Color, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3} from 
 
 const kColours = [0xe4572e, 0x2e86ab, 0xf2a541, 0x4c9f70, 0x8e5bb5, 0xd1495b];
 
+const kLeastShare = 0.9;  // of a ball's radius; a ball smaller than the cells shows through them
+
 /** The balls, as the frames tell. */
 export class BallsView {
   constructor() {
@@ -12,8 +14,11 @@ export class BallsView {
     this.selected = null;
   }
 
-  /** Shows the balls of `after`, on the way from `before` by `share`. */
-  show(before, after, share) {
+  /**
+   * Shows the balls of `after`, on the way from `before` by `share`. The cloth's nodes lie on the ball, its flat cells cut through it:
+   * balls are drawn as much smaller as cells with `halfDiagonal` (m) do, so that cloth hides what is behind it.
+   */
+  show(before, after, share, halfDiagonal) {
     const earlier = new Map(before.map((ball) => [ball.ball, ball]));
     const gone = new Set(this.meshes.keys());
     const place = new Vector3();
@@ -23,7 +28,7 @@ export class BallsView {
       mesh.position.fromArray(ball.position);
       const from = earlier.get(ball.ball);
       if (from && share < 1) mesh.position.lerpVectors(place.fromArray(from.position), mesh.position, share);
-      mesh.scale.setScalar(ball.radius);
+      mesh.scale.setScalar(Math.max(kLeastShare * ball.radius, Math.sqrt(Math.max(0, ball.radius ** 2 - halfDiagonal ** 2))));
       mesh.userData.ball = ball;
     }
     for (const id of gone) this.#remove(id);

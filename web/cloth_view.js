@@ -14,8 +14,7 @@ export function clothMaterials({map, bumpMap}, high) {
   const common = {
     map,
     side: DoubleSide,
-    // Pushed back a little so that the wireframe on the same surface wins.
-    polygonOffset: true,
+    // With the wireframe (see setWireframe): pushed back a little, so that lines on the same surface win.
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
   };
@@ -62,6 +61,11 @@ export class ClothView {
     this.record = after;
     this.centre = centreOf(after.positions);
     return this.morph.active;
+  }
+
+  /** Half the diagonal of a cell as drawn, with a sixth for stretch, m. */
+  get halfDiagonal() {
+    return (Math.hypot(this.size[0] / (this.cols - 1), this.size[1] / (this.rows - 1)) / 2) * (7 / 6);
   }
 
   /** Lowest y shown, m. */

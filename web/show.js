@@ -26,6 +26,7 @@ export class Show {
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
     this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
+    this.materials.fabric.polygonOffset = this.wireframe;
     stage.scene.add(this.balls.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
@@ -66,6 +67,7 @@ export class Show {
 
   setWireframe(on) {
     this.wireframe = on;
+    this.materials.fabric.polygonOffset = on;
     for (const view of this.cloths.values()) view.wireframe = on;
     this.stage.changed = true;
   }
@@ -88,7 +90,8 @@ export class Show {
       const earlier = before.cloths.find((each) => each.cloth === record.cloth) ?? record;
       morphing = view.show(earlier, record, share, nowMs) || morphing;
     }
-    this.balls.show(before.balls, after.balls, share);
+    const coarsest = Math.max(0, ...[...this.cloths.values()].map((view) => view.halfDiagonal || 0));
+    this.balls.show(before.balls, after.balls, share, coarsest);
     this.stamp = after.stamp;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;

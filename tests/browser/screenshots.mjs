@@ -1,0 +1,61 @@
+// The pictures of the README, from a running page: WEFT_SCREENSHOTS=folder WEFT_BINARY=... WEFT_PAGE=... node --test screenshots.mjs
+// Not a test: it draws at full quality, which takes a while without a graphics card.
+import {mkdir} from 'node:fs/promises';
+import {join} from 'node:path';
+import {test} from 'node:test';
+import {openPage, startServer, until} from './harness.mjs';
+
+const folder = process.env.WEFT_SCREENSHOTS;
+const kWindow = {viewport: {width: 1280, height: 800}};
+
+test('screenshots', {timeout: 900_000}, async () => {
+  await mkdir(folder, {recursive: true});
+  const server = await startServer(['flag', 'zheng2020-distance', 'zheng2020-ball']);
+  const open = async (scene, options = {}) => {
+    const {page} = await openPage(`${server.address}/?scene=${scene}`, {...kWindow, ...options});
+    await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
+    return page;
+  };
+  /** Saves what the scene shows at `seconds` of its own time. */
+  const save = async (page, name, seconds) => {
+    await until(page, (time) => weft.stats.lastFrame.time >= time && weft.stats.server, seconds);
+    await page.keyboard.press('Space');
+    await until(page, () => weft.stats.lastFrame.paused && weft.stats.settled);
+    await page.screenshot({path: join(folder, `${name}.png`)});
+    await page.keyboard.press('Space');
+    await until(page, () => !weft.stats.lastFrame.paused);
+  };
+  const time = (page) => page.evaluate(() => weft.stats.lastFrame.time);
+
+  const flag = await open('flag');
+  await save(flag, 'flag', 3);
+  await flag.close();
+  const dark = await open('flag', {colorScheme: 'dark'});
+  await save(dark, 'flag-dark', 3);
+  await dark.close();
+
+  const distance = await open('zheng2020-distance');
+  for (const [key, name, level] of [['1', 'near', 6], ['2', 'middle', 5], ['3', 'far', 4]]) {
+    await distance.keyboard.press(key);
+    await until(distance, (wanted) => weft.stats.cloths[0].level === wanted, level);
+    await save(distance, `distance-${name}`, await time(distance) + 1);
+  }
+  await distance.keyboard.press('2');
+  await distance.keyboard.press('w');
+  await until(distance, () => weft.stats.cloths[0].level === 5);
+  await distance.evaluate(() => weft.setCameraDistance(1.6));
+  await save(distance, 'wireframe', await time(distance) + 1);
+  await distance.close();
+
+  const ball = await open('zheng2020-ball');
+  await ball.evaluate(() => weft.setCameraDistance(2.2));
+  for (let turn = 0; turn < 20; ++turn) await ball.keyboard.press('ArrowRight');
+  await ball.keyboard.press('r');
+  await save(ball, 'ball', 9);
+  await ball.close();
+
+  // A finger's width for each button, and the cloth above the folded panel.
+  const phone = await open('flag', {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true});
+  await save(phone, 'phone', await time(phone) + 1);
+  await phone.close();
+});
