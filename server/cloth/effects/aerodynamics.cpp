@@ -1,7 +1,5 @@
 #include "cloth/effects/aerodynamics.h"
 
-#include <algorithm>
-
 #include "cloth/kernels/air_kernels.h"
 
 namespace weft {
@@ -18,31 +16,29 @@ kernels::Uniform<Real> air_of(const Wind& wind) {
 template <class Real>
 void Aerodynamics<Real>::add_forces(const Particles<Real>& particles, const EffectContext& context,
                                     VectorField<Real>& force) const {
+  // An infinite limit becomes an infinite flow: no limit.
+  const double most_flow = context.damping_limit / rate_per_flow(particles);
   kernels::add_air_pressure(particles.grid(), kernels::components(particles.position),
                             kernels::components(particles.velocity), air_of<Real>(*context.wind),
                             static_cast<Real>(0.5 * parameters_.air_density * parameters_.drag),
-                            kernels::components(force));
+                            static_cast<Real>(most_flow), kernels::components(force));
 }
 
 template <class Real>
 double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
                                             const EffectContext& context) const {
-  const Grid& grid = particles.grid();
-  // -dF/dv of a face is rho C |w.A| n n^T, shared by its corners; a node's row adds up a quarter of each of
-  // its faces.
-  double corners_per_mass = 0;
-  for (int r = 0; r < grid.rows; ++r) {
-    const int faces_down = r == 0 || r == grid.rows - 1 ? 1 : 2;
-    for (int c = 0; c < grid.cols; ++c) {
-      const int faces_across = c == 0 || c == grid.cols - 1 ? 1 : 2;
-      corners_per_mass = std::max(corners_per_mass,
-                                  0.25 * faces_down * faces_across * double(particles.inverse_mass.at(r, c)));
-    }
-  }
   const double flow =
-      double(kernels::max_air_flow(grid, kernels::components(particles.position),
+      double(kernels::max_air_flow(particles.grid(), kernels::components(particles.position),
                                    kernels::components(particles.velocity), air_of<Real>(*context.wind)));
-  return parameters_.air_density * parameters_.drag * flow * corners_per_mass;
+  return flow * rate_per_flow(particles);
+}
+
+template <class Real>
+double Aerodynamics<Real>::rate_per_flow(const Particles<Real>& particles) const {
+  // -dF/dv of a face is rho C |w.A| n n^T, shared by its four corners. A node in the middle of the grid has
+  // a quarter of each of its four faces; on the border it has fewer faces, and no more of them for its mass.
+  const Grid& grid = particles.grid();
+  return parameters_.air_density * parameters_.drag / double(particles.mass.at(grid.rows / 2, grid.cols / 2));
 }
 
 template class Aerodynamics<float>;

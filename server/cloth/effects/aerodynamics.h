@@ -14,6 +14,9 @@ class Aerodynamics final : public Effect<Real> {
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
 
  private:
+  /// Damping rate, 1/s, that a flow |w.A| of 1 m3/s through every face gives a node.
+  double rate_per_flow(const Particles<Real>& particles) const;
+
   AerodynamicsEffect parameters_;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,9 @@ struct EffectContext {
   const ClothDescription* cloth = nullptr;
   const Wind* wind = nullptr;
   double time = 0;  ///< s
+  /// Largest damping rate, 1/s, that the substep bears. A force that grows with speed faster than it did when
+  /// the substeps were chosen (a fast ball strikes) is held to it. Infinite for methods that bear any.
+  double damping_limit = std::numeric_limits<double>::infinity();
 };
 
 /// Something a scene asks to be simulated: adds its force for a whole cloth at once, no call per particle.

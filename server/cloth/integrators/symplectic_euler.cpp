@@ -55,11 +55,14 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
                                              double time, double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
+  const double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
+  const double rate = damping_rate(forces, particles);
   report.substeps = description_.substeps > 0
                         ? description_.substeps
-                        : stable_substeps(forces.springs->max_squared_frequency(particles.mass),
-                                          damping_rate(forces, particles), dt, description_.safety);
+                        : stable_substeps(squared_frequency, rate, dt, description_.safety);
   const double h = dt / report.substeps;
+  // What the rate may grow to within this step: half of the room that the springs leave.
+  forces.context.damping_limit = std::max(rate, (4 - squared_frequency * h * h) / (4 * h));
   for (int s = 0; s < report.substeps; ++s) {
     const auto begin = Clock::now();
     forces.context.time = time + s * h;

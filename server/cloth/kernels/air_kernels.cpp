@@ -39,8 +39,8 @@ template <class Real>
 [[gnu::always_inline]] inline void pressure_block(const Components<const Real>& p,
                                                   const Components<const Real>& v, std::size_t first,
                                                   std::size_t stride, int count, const Uniform<Real>& air,
-                                                  Real factor, Real* __restrict fx, Real* __restrict fy,
-                                                  Real* __restrict fz) {
+                                                  Real factor, Real most_flow, Real* __restrict fx,
+                                                  Real* __restrict fy, Real* __restrict fz) {
   const Real smallest = std::numeric_limits<Real>::min();
   for (int c = 0; c < count; ++c) {
     const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
@@ -50,8 +50,8 @@ template <class Real>
     const Real flow = wx * face.ax + wy * face.ay + wz * face.az;
     const Real squared = face.ax * face.ax + face.ay * face.ay + face.az * face.az;
     // (flow/2)^2 (a/2) / (|a|/2)^2 is half of flow^2 a / |a|^2, and a quarter of it goes to each corner.
-    const Real scale =
-        Real(0.125) * factor * std::abs(flow) * flow / (squared > smallest ? squared : smallest);
+    const Real size = std::abs(flow) < 2 * most_flow ? std::abs(flow) : 2 * most_flow;
+    const Real scale = Real(0.125) * factor * size * flow / (squared > smallest ? squared : smallest);
     fx[c] = scale * face.ax;
     fy[c] = scale * face.ay;
     fz[c] = scale * face.az;
@@ -69,7 +69,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void add_pressure(const Grid& grid, const Components<const Real>& p,
                                                 const Components<const Real>& v, const Uniform<Real>& air,
-                                                Real factor, const Components<Real>& force) {
+                                                Real factor, Real most_flow, const Components<Real>& force) {
   alignas(64) Real work[3][kRowAlign + kBlock + kRowAlign] = {};
   Real* const fx = work[0] + kRowAlign;
   Real* const fy = work[1] + kRowAlign;
@@ -80,7 +80,7 @@ template <class Real>
     fx[count] = fy[count] = fz[count] = Real(0);
     for (int r = 0; r + 1 < grid.rows; ++r) {
       const std::size_t first = grid.index(r, begin);
-      pressure_block(p, v, first, stride, count, air, factor, fx, fy, fz);
+      pressure_block(p, v, first, stride, count, air, factor, most_flow, fx, fy, fz);
       for (const std::size_t row : {first, first + stride}) {
         add_to_corners(force.x + row, fx, count);
         add_to_corners(force.y + row, fy, count);
@@ -179,13 +179,13 @@ template <class Real>
 
 WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const float> position,
                                         Components<const float> velocity, const Uniform<float>& air,
-                                        float factor, Components<float> force) {
-  add_pressure(grid, position, velocity, air, factor, force);
+                                        float factor, float most_flow, Components<float> force) {
+  add_pressure(grid, position, velocity, air, factor, most_flow, force);
 }
 WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const double> position,
                                         Components<const double> velocity, const Uniform<double>& air,
-                                        double factor, Components<double> force) {
-  add_pressure(grid, position, velocity, air, factor, force);
+                                        double factor, double most_flow, Components<double> force) {
+  add_pressure(grid, position, velocity, air, factor, most_flow, force);
 }
 
 WEFT_MULTIVERSION float max_air_flow(const Grid& grid, Components<const float> position,

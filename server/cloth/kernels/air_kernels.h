@@ -11,11 +11,12 @@ struct Uniform {
 
 /// Flat-plate pressure on every face (cell), a quarter of it on each corner: F = factor |w.A| (w.A) A / |A|^2
 /// with A the face's area vector, half the cross product of its diagonals, and w the air's velocity relative
-/// to the mean of the corners'. factor = 1/2 rho C.
+/// to the mean of the corners'. factor = 1/2 rho C. The first |w.A| counts no more than `most_flow`, m3/s:
+/// the force then grows with speed no longer by its square.
 void add_air_pressure(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                      const Uniform<float>& air, float factor, Components<float> force);
+                      const Uniform<float>& air, float factor, float most_flow, Components<float> force);
 void add_air_pressure(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                      const Uniform<double>& air, double factor, Components<double> force);
+                      const Uniform<double>& air, double factor, double most_flow, Components<double> force);
 
 /// Largest |w.A| of any face, m3/s.
 float max_air_flow(const Grid& grid, Components<const float> position, Components<const float> velocity,

@@ -6,49 +6,66 @@ namespace weft::kernels {
 namespace {
 
 template <class Real>
-[[gnu::always_inline]] inline void euler_component(const Real* __restrict force,
-                                                   const Real* __restrict inverse_mass,
-                                                   Real* __restrict acceleration, Real* __restrict velocity,
-                                                   Real* __restrict position, Real h, std::size_t count) {
+[[gnu::always_inline]] inline void euler_any(const EulerArrays<Real>& arrays, Real h, std::size_t count) {
+  const Components<const Real> force = arrays.force;
+  const Components<Real> a = arrays.acceleration, v = arrays.velocity, r = arrays.position;
+  WEFT_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
-    const bool free = inverse_mass[i] > Real(0);
-    const Real a = free ? force[i] * inverse_mass[i] : Real(0);
-    const Real moved = velocity[i] + a * h;
-    const Real v = free ? moved : Real(0);
-    acceleration[i] = a;
-    velocity[i] = v;
-    position[i] += v * h;
+    const Real inverse_mass = arrays.inverse_mass[i];
+    const bool free = inverse_mass > Real(0);
+    const Real ax = free ? force.x[i] * inverse_mass : Real(0);
+    const Real ay = free ? force.y[i] * inverse_mass : Real(0);
+    const Real az = free ? force.z[i] * inverse_mass : Real(0);
+    const Real vx = free ? v.x[i] + ax * h : Real(0);
+    const Real vy = free ? v.y[i] + ay * h : Real(0);
+    const Real vz = free ? v.z[i] + az * h : Real(0);
+    a.x[i] = ax;
+    a.y[i] = ay;
+    a.z[i] = az;
+    v.x[i] = vx;
+    v.y[i] = vy;
+    v.z[i] = vz;
+    r.x[i] += vx * h;
+    r.y[i] += vy * h;
+    r.z[i] += vz * h;
   }
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void euler_all(const EulerArrays<Real>& arrays, Real h, std::size_t count) {
-  euler_component(arrays.force.x, arrays.inverse_mass, arrays.acceleration.x, arrays.velocity.x,
-                  arrays.position.x, h, count);
-  euler_component(arrays.force.y, arrays.inverse_mass, arrays.acceleration.y, arrays.velocity.y,
-                  arrays.position.y, h, count);
-  euler_component(arrays.force.z, arrays.inverse_mass, arrays.acceleration.z, arrays.velocity.z,
-                  arrays.position.z, h, count);
-}
-
-template <class Real>
-[[gnu::always_inline]] inline void add_weighted_constant_one(Real* __restrict force,
-                                                             const Real* __restrict weight, Real value,
+[[gnu::always_inline]] inline void add_weighted_constant_any(const Components<Real>& force,
+                                                             const Real* weight, Real x, Real y, Real z,
                                                              std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) force[i] += weight[i] * value;
+  WEFT_INDEPENDENT_ITERATIONS
+  for (std::size_t i = 0; i < count; ++i) {
+    force.x[i] += weight[i] * x;
+    force.y[i] += weight[i] * y;
+    force.z[i] += weight[i] * z;
+  }
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void add_scaled_one(Real* __restrict force, const Real* __restrict field,
-                                                  Real factor, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) force[i] += factor * field[i];
+[[gnu::always_inline]] inline void add_scaled_any(const Components<Real>& force,
+                                                  const Components<const Real>& field, Real factor,
+                                                  std::size_t count) {
+  WEFT_INDEPENDENT_ITERATIONS
+  for (std::size_t i = 0; i < count; ++i) {
+    force.x[i] += factor * field.x[i];
+    force.y[i] += factor * field.y[i];
+    force.z[i] += factor * field.z[i];
+  }
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void add_weighted_one(Real* __restrict force, const Real* __restrict field,
-                                                    const Real* __restrict weight, Real factor,
-                                                    std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) force[i] += factor * weight[i] * field[i];
+[[gnu::always_inline]] inline void add_weighted_any(const Components<Real>& force,
+                                                    const Components<const Real>& field, const Real* weight,
+                                                    Real factor, std::size_t count) {
+  WEFT_INDEPENDENT_ITERATIONS
+  for (std::size_t i = 0; i < count; ++i) {
+    const Real scale = factor * weight[i];
+    force.x[i] += scale * field.x[i];
+    force.y[i] += scale * field.y[i];
+    force.z[i] += scale * field.z[i];
+  }
 }
 
 template <class Real>
@@ -62,49 +79,37 @@ template <class Real>
 }  // namespace
 
 WEFT_MULTIVERSION void euler_update(const EulerArrays<float>& arrays, float h, std::size_t count) {
-  euler_all(arrays, h, count);
+  euler_any(arrays, h, count);
 }
 WEFT_MULTIVERSION void euler_update(const EulerArrays<double>& arrays, double h, std::size_t count) {
-  euler_all(arrays, h, count);
+  euler_any(arrays, h, count);
 }
 
 WEFT_MULTIVERSION void add_weighted_constant(Components<float> force, const float* weight, float x, float y,
                                              float z, std::size_t count) {
-  add_weighted_constant_one(force.x, weight, x, count);
-  add_weighted_constant_one(force.y, weight, y, count);
-  add_weighted_constant_one(force.z, weight, z, count);
+  add_weighted_constant_any(force, weight, x, y, z, count);
 }
 WEFT_MULTIVERSION void add_weighted_constant(Components<double> force, const double* weight, double x,
                                              double y, double z, std::size_t count) {
-  add_weighted_constant_one(force.x, weight, x, count);
-  add_weighted_constant_one(force.y, weight, y, count);
-  add_weighted_constant_one(force.z, weight, z, count);
+  add_weighted_constant_any(force, weight, x, y, z, count);
 }
 
 WEFT_MULTIVERSION void add_scaled(Components<float> force, Components<const float> field, float factor,
                                   std::size_t count) {
-  add_scaled_one(force.x, field.x, factor, count);
-  add_scaled_one(force.y, field.y, factor, count);
-  add_scaled_one(force.z, field.z, factor, count);
+  add_scaled_any(force, field, factor, count);
 }
 WEFT_MULTIVERSION void add_scaled(Components<double> force, Components<const double> field, double factor,
                                   std::size_t count) {
-  add_scaled_one(force.x, field.x, factor, count);
-  add_scaled_one(force.y, field.y, factor, count);
-  add_scaled_one(force.z, field.z, factor, count);
+  add_scaled_any(force, field, factor, count);
 }
 
 WEFT_MULTIVERSION void add_weighted(Components<float> force, Components<const float> field,
                                     const float* weight, float factor, std::size_t count) {
-  add_weighted_one(force.x, field.x, weight, factor, count);
-  add_weighted_one(force.y, field.y, weight, factor, count);
-  add_weighted_one(force.z, field.z, weight, factor, count);
+  add_weighted_any(force, field, weight, factor, count);
 }
 WEFT_MULTIVERSION void add_weighted(Components<double> force, Components<const double> field,
                                     const double* weight, double factor, std::size_t count) {
-  add_weighted_one(force.x, field.x, weight, factor, count);
-  add_weighted_one(force.y, field.y, weight, factor, count);
-  add_weighted_one(force.z, field.z, weight, factor, count);
+  add_weighted_any(force, field, weight, factor, count);
 }
 
 WEFT_MULTIVERSION bool all_finite(const float* values, std::size_t count) {
