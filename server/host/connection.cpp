@@ -103,8 +103,6 @@ void Connection::refuse(const Request& request, const char* code, const char* pa
   send(protocol::error_text({request.id, code, path, std::move(message)}));
 }
 
-void Connection::send(std::string text) {
-  viewer_->send(std::make_shared<const std::string>(std::move(text)));
-}
+void Connection::send(std::string text) { viewer_->send(make_text(std::move(text))); }
 
 }  // namespace weft::host

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace weft::host {
@@ -21,7 +22,9 @@ struct FrameMessage {
   std::vector<Record> records;
 };
 
+/// A control message; one for all may be shared by all.
 using Text = std::shared_ptr<const std::string>;
+inline Text make_text(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
 /// The next message for a viewer: exactly one of the two.
 struct Outgoing {

@@ -200,8 +200,7 @@ void start_websocket_session(Context& context, ConnectionCount count, beast::tcp
 }
 
 void end_websocket_session(WebsocketSession& session) {
-  session.viewer().send(
-      std::make_shared<const std::string>(protocol::notice_text("shutdown", "the server stops")));
+  session.viewer().send(host::make_text(protocol::notice_text("shutdown", "the server stops")));
   session.close(websocket::close_code::going_away, "the server stops", true);
 }
 

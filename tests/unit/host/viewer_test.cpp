@@ -11,7 +11,7 @@ std::shared_ptr<const FrameMessage> frame(std::uint32_t number) {
   return message;
 }
 
-Text text(const std::string& words) { return std::make_shared<const std::string>(words); }
+Text text(const std::string& words) { return make_text(words); }
 
 /// The number of the next frame to be sent, -1 if nothing may be.
 int next_frame(Viewer& viewer) {

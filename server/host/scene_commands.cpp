@@ -1,0 +1,164 @@
+/// LiveScene's commands: what each does, and when it is refused.
+#include <algorithm>
+#include <utility>
+
+#include "host/live_scene.h"
+#include "host/scene_messages.h"
+
+namespace weft::host {
+namespace {
+
+using nlohmann::json;
+using protocol::Error;
+
+Vec3 to_vec3(const protocol::Vector& v) { return {v[0], v[1], v[2]}; }
+
+Error refused(const char* code, const char* path, std::string message) {
+  return {std::nullopt, code, path, std::move(message)};
+}
+
+Error no_such_ball(BallId id) {
+  return refused("not_found", "/ball", "/ball is " + std::to_string(id) + "; the scene has no such ball");
+}
+
+bool has_wind(const SimulationDescription& description) {
+  return std::any_of(description.effects.begin(), description.effects.end(),
+                     [](const EffectDescription& effect) {
+                       return std::holds_alternative<PaperWindEffect>(effect) ||
+                              std::holds_alternative<AerodynamicsEffect>(effect);
+                     });
+}
+
+}  // namespace
+
+void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+                      const SceneRequest& request) {
+  const auto seat = std::find_if(seats_.begin(), seats_.end(),
+                                 [&](const Seat& s) { return s.viewer == viewer && s.visit == visit; });
+  if (seat == seats_.end()) return;
+  // Most commands are felt in the next step; those that are not say so.
+  takes_effect_ = simulation_.step_count() + 1;
+  Outcome outcome =
+      std::visit([&](const auto& command) { return carry_out(command, *seat); }, request.command);
+  if (auto* error = std::get_if<Error>(&outcome)) {
+    error->re = request.id;
+    viewer->send(make_text(protocol::error_text(*error)));
+  } else if (request.id) {
+    viewer->send(make_text(protocol::ok_text(*request.id, takes_effect_, std::get<json>(outcome))));
+  }
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
+  if (camera.eye) {
+    seat.eye = to_vec3(*camera.eye);
+  } else {
+    seat.eye.reset();
+    seat.distance = *camera.distance;
+  }
+  look(seat);
+  request_levels();
+  if (!wants_step()) seat.wants_frame = true;
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
+  if (unstable_) return must_reset();
+  if (simulation_.colliders().balls().size() >= static_cast<std::size_t>(limits_.balls)) {
+    return refused("limit", "",
+                   "the scene has " + std::to_string(limits_.balls) + " balls, the most allowed");
+  }
+  BallDescription ball;
+  ball.position = to_vec3(add.position);
+  ball.radius = add.radius;
+  ball.velocity = to_vec3(add.velocity);
+  ball.motion = add.dynamic ? BallDescription::Motion::dynamic : BallDescription::Motion::kinematic;
+  ball.mass = add.mass;
+  const BallId id = simulation_.add_ball(ball);
+  balls_changed("ball.add", id);
+  return json{{"ball", id}};
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.move_ball(move.ball, to_vec3(move.position))) return no_such_ball(move.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.throw_ball(thrown.ball, to_vec3(thrown.velocity))) return no_such_ball(thrown.ball);
+  balls_changed("ball.throw", thrown.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat&) {
+  if (unstable_) return must_reset();
+  if (!simulation_.remove_ball(remove.ball)) return no_such_ball(remove.ball);
+  balls_changed("ball.remove", remove.ball);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
+  if (!has_wind(scene_.simulation)) {
+    return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
+  }
+  if (unstable_) return must_reset();
+  simulation_.set_wind({to_vec3(wind.direction), wind.speed});
+  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Pause&, Seat&) {
+  takes_effect_ = simulation_.step_count();
+  waiting_steps_ = 0;
+  set_paused(true);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Resume&, Seat&) {
+  if (unstable_) return must_reset();
+  waiting_steps_ = 0;
+  set_paused(false);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
+  if (unstable_) return must_reset();
+  if (!paused_) return refused("conflict", "", "step is only for a paused scene");
+  if (waiting_steps_ + step.count > kMaxWaitingSteps) {
+    return refused(
+        "limit", "/count",
+        std::to_string(waiting_steps_) + " steps wait already; at most " + std::to_string(kMaxWaitingSteps));
+  }
+  waiting_steps_ += step.count;
+  // When the scene stands still again, so that a script knows which frame to wait for.
+  takes_effect_ = simulation_.step_count() + static_cast<std::uint64_t>(waiting_steps_);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
+  simulation_.reset();
+  if (unstable_) paused_ = paused_before_;
+  unstable_ = false;
+  waiting_steps_ = 0;
+  ++epoch_;
+  takes_effect_ = 0;
+  find_centres();
+  for (Seat& seat : seats_) {
+    seat.policy_levels.clear();
+    look(seat);
+  }
+  state_changed();
+  tell_event("reset", 0,
+             {{"epoch", epoch_},
+              {"time", 0.0},
+              {"paused", paused_},
+              {"wind", wind_json(simulation_.wind())},
+              {"balls", balls_json(simulation_.colliders())}});
+  request_levels();
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::must_reset() const { return refused("conflict", "", unstable_message_); }
+
+}  // namespace weft::host
