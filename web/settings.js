@@ -1,4 +1,4 @@
-/** What the page's address may say. See README, "The page". */
+/** What the page's address may say. */
 
 /**
  * @typedef {object} Settings

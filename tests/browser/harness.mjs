@@ -95,10 +95,14 @@ export async function pause(page) {
   await until(page, () => weft.stats.lastFrame.paused && weft.stats.settled);
 }
 
-/** A square of the page around a point of the scene, for screenshots. */
-export async function areaAround(page, point, side) {
-  const [x, y] = await page.evaluate((place) => weft.toPage(place), point);
-  return {x: x - side / 2, y: y - side / 2, width: side, height: side};
+/** The square of the page that covers a square of `metres` around a point of the scene, for screenshots. */
+export async function areaAround(page, point, metres) {
+  return page.evaluate(({point: [x, y, z], metres}) => {
+    const [, top] = weft.toPage([x, y + metres / 2, z]);
+    const [left, middle] = weft.toPage([x, y, z]);
+    const half = Math.round(middle - top);
+    return {x: Math.round(left) - half, y: Math.round(middle) - half, width: 2 * half, height: 2 * half};
+  }, {point, metres});
 }
 
 /**

@@ -3,6 +3,8 @@ import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {areaAround, differingPixels, openPage, openScene, pause, startServer, stats, until} from './harness.mjs';
 
+const kInside = 0.6;  // m: a square of the cloth, whose sides are 1 m, that its folds leave covered
+
 let server, page, witness;
 before(async () => {
   server = await startServer(['zheng2020-distance', 'flag']);
@@ -22,7 +24,7 @@ test('the page says that it is live, and which scene it shows', async () => {
 });
 
 test('the cloth is drawn, and it moves; paused it stands still', async () => {
-  const area = await areaAround(page, (await stats(page)).cloths[0].centre, 200);
+  const area = await areaAround(page, (await stats(page)).cloths[0].centre, kInside);
   const shoot = () => page.screenshot({clip: area});
   const first = await shoot();
   const {frames, lastFrame} = await stats(page);
@@ -39,7 +41,7 @@ test('the cloth is drawn, and it moves; paused it stands still', async () => {
   await page.evaluate(() => weft.setCameraDistance(19));
   await until(page, () => weft.stats.settled && weft.stats.distance > 18);
   const away = await differingPixels(page, still, await shoot());
-  assert.ok(away.differing > 0.3 * away.all, `${away.differing} of ${away.all} pixels were cloth`);
+  assert.ok(away.differing > 0.8 * away.all, `${away.differing} of ${away.all} pixels were cloth`);
   await page.keyboard.press('2');
   await resume();
 });
@@ -93,14 +95,14 @@ test('wind by the sliders', async () => {
 
 test('W toggles the wireframe', async () => {
   await pause(page);
-  const area = await areaAround(page, (await stats(page)).cloths[0].centre, 150);
+  const area = await areaAround(page, (await stats(page)).cloths[0].centre, kInside);
   const plain = await page.screenshot({clip: area});
   await page.focus('#stage');
   await page.keyboard.press('w');
   await until(page, () => weft.stats.settled);
   assert.equal(await page.isChecked('#wireframe'), true);
   const wired = await differingPixels(page, plain, await page.screenshot({clip: area}));
-  assert.ok(wired.differing > 0.05 * wired.all, `${wired.differing} of ${wired.all} pixels have wires`);
+  assert.ok(wired.differing > 0.2 * wired.all, `${wired.differing} of ${wired.all} pixels have wires`);
   await page.click('#wireframe');
   await until(page, () => weft.stats.settled);
   const back = await differingPixels(page, plain, await page.screenshot({clip: area}), 0);
@@ -111,7 +113,8 @@ test('W toggles the wireframe', async () => {
 test('the choice of scene', async () => {
   await page.selectOption('#scene', 'flag');
   await until(page, () => weft.stats.scene === 'flag' && weft.stats.cloths.length > 0);
-  assert.equal(await page.textContent('#scene-title'), 'A flag in the wind');
+  const {scenes} = await (await fetch(`${server.address}/v1/scenes`)).json();
+  assert.equal(await page.textContent('#scene-title'), scenes.find(({name}) => name === 'flag').title);
   assert.equal(new URL(page.url()).searchParams.get('scene'), 'flag');
   // The other scene's clock ran on without this page: its cloth is another one.
   assert.equal((await stats(page)).cloths[0].name, 'flag');
