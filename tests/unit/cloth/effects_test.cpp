@@ -222,6 +222,22 @@ TEST(Aerodynamics, RateBoundsTheForcesSlope) {
   EXPECT_LE(rate, 2 * 44.1);
 }
 
+TEST(Aerodynamics, GrowsOnlyLinearlyBeyondWhatTheSubstepBears) {
+  // Held to a rate of 10 /s where the flow asks for 44.1: |w.A| counts as 10 m / (rho C), so that the force
+  // is 1/2 rho C |w.A| w = 10 m w / 2 = 0.5 * 10 * 0.1 * 2 * 3 = 3 N. A limit above the rate changes nothing.
+  Sheet sheet(Discretization::continuum);
+  sheet.wind = {{0, 0, -1}, 3.0};
+  EffectContext context = sheet.context();
+  context.damping_limit = 10;
+  VectorField<double> force(sheet.particles.grid());
+  Aerodynamics<double>({1.225, 1.2}).add_forces(sheet.particles, context, force);
+  EXPECT_LT((total(force) - Vec3(0, 0, -3)).norm(), 1e-12);
+  context.damping_limit = 45;
+  force.fill(0);
+  Aerodynamics<double>({1.225, 1.2}).add_forces(sheet.particles, context, force);
+  EXPECT_LT((total(force) - Vec3(0, 0, -13.23)).norm(), 1e-12);
+}
+
 TEST(Aerodynamics, ACrumpledPointHasNoFaceAndStaysFinite) {
   Sheet sheet(Discretization::continuum);
   sheet.particles.position.fill(0);

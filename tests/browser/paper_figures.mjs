@@ -1,4 +1,4 @@
-// Draws the paper's Figs. 5 to 7 and the README's screenshot with the real page and the real server: run by tests/browser/pictures.
+// Draws the paper's Figs. 5 to 7 with the real page and the real server; not a test: tests/browser/pictures runs it.
 import {mkdir} from 'node:fs/promises';
 import {test} from 'node:test';
 import WebSocket from 'ws';
@@ -25,7 +25,7 @@ async function atFrames(scene, distance, frames, take) {
   for (const frame of frames) {
     if (frame > at) await control.step(frame - at);
     at = frame;
-    await until(page, (wanted) => weft.stats.lastFrame?.frame === wanted, frame);
+    await until(page, (wanted) => weft.stats.lastFrame?.f === wanted, frame);
     await page.evaluate((metres) => weft.setCameraDistance(metres), distance);
     await until(page, () => weft.stats.settled);
     await take(page, frame, control.scene.cloths[0].size[0]);
@@ -52,14 +52,11 @@ async function portrait(page, name, side) {
   await page.screenshot({path: `${kFolder}/${name}.png`, clip});
 }
 
-test('pictures', {timeout: 1_800_000}, async () => {
+test('figures', {timeout: 1_800_000}, async () => {
   await mkdir(kFolder, {recursive: true});
   await atFrames('zheng2020-wind', kNear, [0, 100, 200, 300, 400, 500], (page, frame, side) => portrait(page, `fig5-${frame}`, side));
   for (const distance of [kNear, kMiddle, kFar]) {
     await atFrames('zheng2020-distance', distance, [300], (page, frame, side) => portrait(page, `fig6-${distance}`, side));
     await atFrames('zheng2020-ball', distance, [100, 200, 300], (page, frame, side) => portrait(page, `fig7-${distance}-${frame}`, side));
-  }
-  for (const distance of [kNear, kMiddle, kFar]) {
-    await atFrames('zheng2020-distance', distance, [200], (page) => page.screenshot({path: `${kFolder}/page-${distance}.png`}));
   }
 });
