@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -11,6 +12,15 @@
 #include "cloth/particles.h"
 #include "cloth/refine.h"
 #include "cloth/springs.h"
+
+namespace weft {
+
+/// Names it in the tests' output.
+inline std::ostream& operator<<(std::ostream& out, Discretization discretization) {
+  return out << (discretization == Discretization::paper ? "paper" : "continuum");
+}
+
+}  // namespace weft
 
 namespace weft::test {
 

@@ -49,6 +49,8 @@ Material stiffnesses(double structural, double shear, double bending) {
   return material;
 }
 
+std::ostream& operator<<(std::ostream& out, const BoundCase& sheet) { return out << sheet.name; }
+
 class FrequencyBound : public ::testing::TestWithParam<std::tuple<BoundCase, Discretization>> {};
 
 TEST_P(FrequencyBound, HoldsForEveryShape) {

@@ -168,6 +168,8 @@ struct KindCase {
   std::size_t count;                         // of such springs on 4 x 6 nodes
 };
 
+std::ostream& operator<<(std::ostream& out, const KindCase& kind) { return out << kind.name; }
+
 class SpringKinds : public ::testing::TestWithParam<KindCase> {};
 
 TEST_P(SpringKinds, ExactlyTheSpringsOfFigure1Exist) {
