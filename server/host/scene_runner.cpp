@@ -51,11 +51,12 @@ bool SceneRunner::reserve() {
   return false;
 }
 
-bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, SceneRequest request) {
+bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+                         const SceneRequest& request) {
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() >= kMaxWaiting) return false;
-    waiting_.push_back({viewer, visit, std::move(request)});
+    waiting_.push_back({viewer, visit, request});
   }
   work_.notify_one();
   return true;

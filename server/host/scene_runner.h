@@ -50,7 +50,7 @@ class SceneRunner {
     post({std::move(viewer), visit, Leave{}});
   }
   /// One command. False if too many wait; it is forgotten.
-  bool submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, SceneRequest request);
+  bool submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, const SceneRequest& request);
 
  private:
   struct Join {};
