@@ -205,8 +205,9 @@ TEST(HostOfScenes, MalformedMessagesAreAnsweredAndHarmless) {
 
 TEST(HostOfScenes, SlowsTheClockWhenStepsTakeTooLong) {
   scene::Scene heavy = hung_cloth("heavy");
-  heavy.camera_distance = 0.5;                                          // level 6
-  heavy.simulation.integrator = SymplecticEulerDescription{5000, 0.9};  // some 50 ms a step, of 16.7 ms
+  heavy.camera_distance = 0.5;  // level 6
+  heavy.simulation.time_step = 1.0 / 240.0;
+  heavy.simulation.integrator = SymplecticEulerDescription{600, 0.9};  // more than 10 ms a step, of 4.2 ms
   Host host;
   host.add(heavy);
   Guest guest(host, "heavy");
