@@ -1,5 +1,7 @@
 #include "cloth/kernels/node_kernels.h"
 
+#include <cmath>
+
 #include "cloth/multiversion.h"
 
 namespace weft::kernels {
@@ -76,6 +78,19 @@ template <class Real>
   return bad == 0;
 }
 
+template <class Real>
+[[gnu::always_inline]] inline bool all_within_any(const Components<const Real>& a,
+                                                  const Components<const Real>& b, Real distance,
+                                                  std::size_t count) {
+  int bad = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bad |= std::abs(a.x[i] - b.x[i]) <= distance ? 0 : 1;
+    bad |= std::abs(a.y[i] - b.y[i]) <= distance ? 0 : 1;
+    bad |= std::abs(a.z[i] - b.z[i]) <= distance ? 0 : 1;
+  }
+  return bad == 0;
+}
+
 }  // namespace
 
 WEFT_MULTIVERSION void euler_update(const EulerArrays<float>& arrays, float h, std::size_t count) {
@@ -110,6 +125,15 @@ WEFT_MULTIVERSION void add_weighted(Components<float> force, Components<const fl
 WEFT_MULTIVERSION void add_weighted(Components<double> force, Components<const double> field,
                                     const double* weight, double factor, std::size_t count) {
   add_weighted_any(force, field, weight, factor, count);
+}
+
+WEFT_MULTIVERSION bool all_within(Components<const float> a, Components<const float> b, float distance,
+                                  std::size_t count) {
+  return all_within_any(a, b, distance, count);
+}
+WEFT_MULTIVERSION bool all_within(Components<const double> a, Components<const double> b, double distance,
+                                  std::size_t count) {
+  return all_within_any(a, b, distance, count);
 }
 
 WEFT_MULTIVERSION bool all_finite(const float* values, std::size_t count) {

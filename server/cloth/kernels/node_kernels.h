@@ -31,6 +31,10 @@ void add_weighted(Components<float> force, Components<const float> field, const 
 void add_weighted(Components<double> force, Components<const double> field, const double* weight,
                   double factor, std::size_t count);
 
+/// Whether no component of a differs from b's by more than `distance`; false if one is NaN.
+bool all_within(Components<const float> a, Components<const float> b, float distance, std::size_t count);
+bool all_within(Components<const double> a, Components<const double> b, double distance, std::size_t count);
+
 bool all_finite(const float* values, std::size_t count);
 bool all_finite(const double* values, std::size_t count);
 

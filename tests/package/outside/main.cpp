@@ -19,7 +19,8 @@ int main() {
   const auto& grid = position.grid();
   const weft::protocol::GridView view{
       {position.x.row(0), position.y.row(0), position.z.row(0)}, grid.rows, grid.cols, grid.stride, 1};
-  const auto record = weft::protocol::encode_cloth_record({}, 0, 4, 4, 16, view);
+  auto record = weft::protocol::encode_cloth_record({}, 0, 4, 4, 16, view);
+  weft::protocol::mark_last(record, 0);
   weft::protocol::Frame frame;
   std::string error;
   const bool decoded = weft::protocol::decode_frame(record, frame, error);
