@@ -1,5 +1,7 @@
 /** What the page's address may say. */
 
+const kFieldOfView = 42;  // degrees
+
 /**
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" without a path
@@ -7,11 +9,12 @@
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
  * @property {boolean} wireframe
+ * @property {number} fieldOfView height of the view in a window that is not narrow, degrees
  */
 
 /**
- * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, and `?quality=low` for machines that draw without a
- * graphics card.
+ * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, `?fov=75` (degrees, 20 to 100) for a wider
+ * or longer lens, and `?quality=low` for machines that draw without a graphics card.
  * @param {URL} address the page's own
  * @param {number} devicePixelRatio
  * @returns {Settings}
@@ -26,7 +29,14 @@ export function readSettings(address, devicePixelRatio) {
     // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
     pixelRatio: high ? Math.min(devicePixelRatio, 2) : 1,
     wireframe: parameters.get('wireframe') === '1',
+    fieldOfView: fieldOfView(parameters.get('fov')),
   };
+}
+
+/** The given one where it makes sense, else the usual one. */
+function fieldOfView(given) {
+  const degrees = Number(given);
+  return degrees >= 20 && degrees <= 100 ? degrees : kFieldOfView;
 }
 
 /** The service's address as ws: or wss:, without a trailing slash; the page's own host when none is given. */

@@ -7,8 +7,7 @@ const kThemes = {
   light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, shadow: 0.22},
   dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, shadow: 0.5},
 };
-const kHalfView = (21 * Math.PI) / 180;  // half the field of view, upwards, of a window at least so wide:
-const kRoomyAspect = 1.25;
+const kRoomyAspect = 1.25;  // of a window at least so wide the field of view is the one set
 const kGroundMetres = 40;
 const kGroundGap = 0.02;  // m, to the lowest thing above it
 
@@ -29,6 +28,7 @@ export class Stage {
     this.anisotropy = settings.high ? Math.min(8, this.renderer.capabilities.getMaxAnisotropy()) : 1;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(0, 1, 0.02, 200);  // its field of view follows the window: #resize
+    this.halfView = (settings.fieldOfView / 2) * (Math.PI / 180);  // upwards
     this.changed = true;  // something to draw
     this.insets = {right: 0, bottom: 0};
     /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
@@ -130,7 +130,7 @@ export class Stage {
     const {right, bottom} = this.insets;
     // Enough of the scene is in sight however narrow the window.
     const narrow = Math.max(1, kRoomyAspect / ((clientWidth - right) / (clientHeight - bottom)));
-    this.camera.fov = (2 * Math.atan(narrow * Math.tan(kHalfView)) * 180) / Math.PI;
+    this.camera.fov = (2 * Math.atan(narrow * Math.tan(this.halfView)) * 180) / Math.PI;
     this.camera.setViewOffset(clientWidth, clientHeight, right / 2, bottom / 2, clientWidth, clientHeight);
     this.changed = true;
   }

@@ -184,5 +184,7 @@ test('scene and quality of the page’s address', () => {
   assert.deepEqual([plain.scene, plain.high, plain.pixelRatio, plain.wireframe], [null, true, 2, false]);
   const low = readSettings(new URL('http://a/?scene=flag&quality=low&wireframe=1'), 3);
   assert.deepEqual([low.scene, low.high, low.pixelRatio, low.wireframe], ['flag', false, 1, true]);
+  const view = (text) => readSettings(new URL(`http://a/${text}`), 1).fieldOfView;
+  assert.deepEqual(['', '?fov=75', '?fov=5', '?fov=wide'].map(view), [42, 75, 42, 42]);  // what makes no sense is the usual one
   assert.equal(addressOfScene(new URL('http://a/?server=ws://b:1&scene=x'), 'y').search, '?server=ws%3A%2F%2Fb%3A1&scene=y');
 });
