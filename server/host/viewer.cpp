@@ -31,26 +31,26 @@ bool Viewer::overflowed() const {
 }
 
 void Viewer::send(Text text) {
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   // One that does not read is never found idle: what is being sent to it does not get through.
-  if (!push(std::move(text))) return wake_now(std::move(lock));
-  wake_if_idle(std::move(lock));
+  if (!push(std::move(text))) return wake_now();
+  wake_if_idle();
 }
 
 void Viewer::send(std::uint64_t visit, Text text) {
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   if (visit != visit_) return;
   // One that does not read is never found idle: what is being sent to it does not get through.
-  if (!push(std::move(text))) return wake_now(std::move(lock));
-  wake_if_idle(std::move(lock));
+  if (!push(std::move(text))) return wake_now();
+  wake_if_idle();
 }
 
 void Viewer::publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame) {
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   if (visit != visit_) return;
   if (newest_) ++dropped_;
   newest_ = std::move(frame);
-  wake_if_idle(std::move(lock));
+  wake_if_idle();
 }
 
 std::uint64_t Viewer::enter() {
@@ -61,18 +61,18 @@ std::uint64_t Viewer::enter() {
 }
 
 void Viewer::enable_acks(int window) {
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   window_ = window;
-  wake_if_idle(std::move(lock));
+  wake_if_idle();
 }
 
 bool Viewer::acknowledge(std::uint32_t frame) {
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   // The last one of that number: a paused scene sends one step more than once.
   const auto found = std::find(outstanding_.rbegin(), outstanding_.rend(), frame);
   if (found == outstanding_.rend()) return false;
   outstanding_.erase(outstanding_.begin(), found.base());
-  wake_if_idle(std::move(lock));
+  wake_if_idle();
   return true;
 }
 
@@ -91,16 +91,14 @@ bool Viewer::may_send_frame() const {
   return newest_ && (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_));
 }
 
-void Viewer::wake_if_idle(std::unique_lock<std::mutex> lock) {
+void Viewer::wake_if_idle() {
   if (!idle_ || !(overflowed_ || !texts_.empty() || may_send_frame())) return;
-  wake_now(std::move(lock));
+  wake_now();
 }
 
-void Viewer::wake_now(std::unique_lock<std::mutex> lock) {
+void Viewer::wake_now() {
   idle_ = false;
-  const auto wake = wake_;
-  lock.unlock();
-  if (wake) wake();
+  if (wake_) wake_();
 }
 
 }  // namespace weft::host

@@ -40,7 +40,8 @@ class Viewer {
   static constexpr std::size_t kMaxTexts = 256;
 
   /// `wake` is called, on the filling thread, when there is something to send after take() returned nothing,
-  /// and when the outbox overflows. Set it before the first take().
+  /// and when the outbox overflows. Set it before the first take(). It must not use the viewer. When
+  /// on_wake(nullptr) has returned, it is not called any more and no call is under way.
   void on_wake(std::function<void()> wake);
   /// The next message: control before frames, a frame only while fewer than the window are unacknowledged.
   std::optional<Outgoing> take();
@@ -65,12 +66,12 @@ class Viewer {
   std::uint64_t dropped() const;
 
  private:
-  // Both need mutex_.
+  // These need mutex_.
   /// False if the outbox overflows by it.
   bool push(Text text);
   bool may_send_frame() const;
-  void wake_if_idle(std::unique_lock<std::mutex> lock);
-  void wake_now(std::unique_lock<std::mutex> lock);
+  void wake_if_idle();
+  void wake_now();
 
   mutable std::mutex mutex_;
   std::function<void()> wake_;

@@ -116,7 +116,9 @@ Server::Server(host::Host& host, ServerOptions options)
 }
 
 Server::~Server() {
-  // The sessions that are destroyed with the io_context must not call into it.
+  // Scenes still run: they must not post to an io_context that is being destroyed.
+  for (WebsocketSession* viewer : impl_->context.viewers) silence_websocket_session(*viewer);
+  // The sessions that are destroyed with it must not stop it.
   impl_->context.on_viewers_gone = [] {};
 }
 

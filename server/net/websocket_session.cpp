@@ -58,6 +58,8 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   }
 
   ~WebsocketSession() {
+    // The scene may keep the viewer a moment longer than the server's io_context lives.
+    viewer().on_wake(nullptr);
     context_.viewers.erase(this);
     if (context_.stopping && context_.viewers.empty()) context_.on_viewers_gone();
   }
@@ -203,5 +205,7 @@ void end_websocket_session(WebsocketSession& session) {
   session.viewer().send(host::make_text(protocol::notice_text("shutdown", "the server stops")));
   session.close(websocket::close_code::going_away, "the server stops", true);
 }
+
+void silence_websocket_session(WebsocketSession& session) { session.viewer().on_wake(nullptr); }
 
 }  // namespace weft::net

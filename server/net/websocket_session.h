@@ -18,4 +18,7 @@ void start_websocket_session(Context& context, ConnectionCount count, boost::bea
 /// Tells a viewer that the server stops, and closes with 1001.
 void end_websocket_session(WebsocketSession& session);
 
+/// From now on the scene's thread leaves this session alone.
+void silence_websocket_session(WebsocketSession& session);
+
 }  // namespace weft::net

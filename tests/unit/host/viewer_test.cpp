@@ -102,6 +102,16 @@ TEST(Viewer, WakesOnceThereIsSomethingToSend) {
   EXPECT_EQ(wakes, 1);  // until it is asked again
 }
 
+TEST(Viewer, WakesNobodyWhoHasGone) {
+  Viewer viewer;
+  int wakes = 0;
+  viewer.on_wake([&] { ++wakes; });
+  EXPECT_FALSE(viewer.take());
+  viewer.on_wake(nullptr);
+  viewer.publish(viewer.enter(), frame(1));
+  EXPECT_EQ(wakes, 0);
+}
+
 TEST(Viewer, AFrameBeyondTheWindowWakesWhenItIsAcknowledged) {
   Viewer viewer;
   int wakes = 0;
