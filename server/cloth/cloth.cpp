@@ -152,6 +152,7 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
       Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
   earlier_contacts_ = contact_counters();
   contact_.reset();
+  integrator_->restart();
 }
 
 template <class Real>

@@ -36,6 +36,7 @@ BallId Colliders::add(const BallDescription& description) {
   ball.motion = description.motion;
   ball.radius = description.radius;
   ball.mass = description.mass;
+  ball.friction = description.friction;
   ball.path = description.path;
   ball.position = description.path.empty() ? description.position : description.path.front().position;
   ball.start = ball.position;

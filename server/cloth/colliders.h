@@ -14,6 +14,7 @@ struct Ball {
   BallDescription::Motion motion = BallDescription::Motion::kinematic;
   double radius = 0;       ///< m
   double mass = 0;         ///< kg, dynamic only
+  double friction = 0;     ///< Coulomb's coefficient
   Vec3 position{0, 0, 0};  ///< at the end of the step, m
   Vec3 start{0, 0, 0};     ///< at its start, m
   Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s: what the cloth feels

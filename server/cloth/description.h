@@ -94,6 +94,7 @@ struct BallDescription {
   Vec3 velocity{0.0, 0.0, 0.0};
   Motion motion = Motion::kinematic;
   double mass = 1.0;           ///< kg, > 0, dynamic balls only
+  double friction = 0.0;       ///< Coulomb's coefficient between ball and cloth, >= 0; 0 in the paper
   std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
 };
 
@@ -105,7 +106,25 @@ struct SymplecticEulerDescription {
   double safety = 0.9;  ///< with substeps = 0: share of the stability limit used, (0, 1]
   static constexpr const char* kName = "symplectic_euler";
 };
-using IntegratorDescription = std::variant<SymplecticEulerDescription>;
+
+/// The implicit methods: one linear system a Newton iteration, solved by multigrid conjugate gradients.
+struct ImplicitParameters {
+  int substeps = 1;         ///< per step, >= 1
+  double tolerance = 0.01;  ///< of the linear solve: energy norm of the error relative to the step's; (0, 1)
+  int newton_iterations = 1;   ///< linearisations a substep, >= 1
+  int linear_iterations = 60;  ///< at most, a linear solve; >= 1
+};
+/// Backward Euler: first order, damps (T3 in the truths), the sturdiest.
+struct BackwardEulerDescription : ImplicitParameters {
+  static constexpr const char* kName = "backward_euler";
+};
+/// Backward differentiation formula of second order: nearly keeps the energy of slow motion.
+struct Bdf2Description : ImplicitParameters {
+  static constexpr const char* kName = "bdf2";
+};
+
+using IntegratorDescription =
+    std::variant<SymplecticEulerDescription, BackwardEulerDescription, Bdf2Description>;
 
 struct SimulationDescription {
   std::vector<ClothDescription> cloths;

@@ -18,3 +18,6 @@
 #else
 #define WEFT_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
 #endif
+
+/// A lambda so marked becomes part of the loop that calls it, and with it of the instruction set's version.
+#define WEFT_INLINE_LAMBDA __attribute__((always_inline))

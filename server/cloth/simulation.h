@@ -39,6 +39,7 @@ class Simulation {
   double time() const { return static_cast<double>(steps_) * description_.time_step; }
   bool healthy() const { return healthy_; }  ///< false once a step gave a non-finite state
   const StepProfile& profile() const { return profile_; }
+  const AdvanceReport& last_advance(std::size_t cloth) const { return last_advance_[cloth]; }
 
   const std::vector<Cloth<Real>>& cloths() const { return cloths_; }
   std::vector<Cloth<Real>>& cloths() { return cloths_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/spring_kernels.h"
 
 namespace weft {
@@ -131,9 +132,7 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
 }
 
 template <class Real>
-void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
-  if (families_.empty()) return;
-  const Grid& grid = position.grid();
+kernels::SpringLattice<Real> Springs<Real>::lattice(const Grid& grid) const {
   kernels::SpringLattice<Real> lattice;
   const std::array<kernels::SpringColumns<Real>*, kKinds> of_kind{&lattice.along_u,   &lattice.along_v,
                                                                   &lattice.falling,   &lattice.rising,
@@ -145,10 +144,36 @@ void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Re
     of_kind[kind_of(family)]->rest_length = static_cast<Real>(family.rest_length);
     lattice.has_shear = lattice.has_shear || kind_of(family) == kFalling;
     lattice.has_bending = lattice.has_bending || kind_of(family) == kBendingU;
+    lattice.border_row_share = static_cast<Real>(family.border_share);
   }
-  lattice.border_row_share = static_cast<Real>(families_.front().border_share);
-  kernels::add_spring_forces(lattice, grid, kernels::components(position), kernels::components(force),
+  return lattice;
+}
+
+template <class Real>
+void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
+  if (families_.empty()) return;
+  const Grid& grid = position.grid();
+  kernels::add_spring_forces(lattice(grid), grid, kernels::components(position), kernels::components(force),
                              work_.data());
+}
+
+template <class Real>
+void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> position,
+                              const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const {
+  kernels::linearise_springs(lattice(grid), grid, position, links);
+}
+
+template <class Real>
+bool Springs<Real>::has_bending() const {
+  return std::any_of(families_.begin(), families_.end(),
+                     [](const SpringFamily& family) { return kind_of(family) == kBendingU; });
+}
+
+template <class Real>
+double Springs<Real>::node_stiffness() const {
+  double sum = 0;
+  for (const SpringFamily& family : families_) sum += 2 * family.stiffness;
+  return sum;
 }
 
 template <class Real>

@@ -1,6 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "cloth/kernels/link_kernels.h"
+#include "cloth/kernels/spring_kernels.h"
 #include "cloth/material.h"
 #include "cloth/particles.h"
 #include "cloth/spring_family.h"
@@ -34,6 +36,12 @@ class Springs {
 
   /// Adds Eq. 1's force on every node, N.
   void add_forces(const VectorField<Real>& position, VectorField<Real>& force) const;
+  /// Linearises every spring at `position`, given with its rows of zeros (kernels/link_kernels.h).
+  void linearise(const Grid& grid, kernels::Components<const Real> position,
+                 const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const;
+  bool has_bending() const;
+  /// Stiffness of all springs at a node away from the border, N/m.
+  double node_stiffness() const;
   /// J.
   double energy(const VectorField<Real>& position) const;
   StructuralStrain structural_strain(const VectorField<Real>& position) const;
@@ -43,6 +51,8 @@ class Springs {
   double max_squared_frequency(const Field<Real>& mass) const;
 
  private:
+  kernels::SpringLattice<Real> lattice(const Grid& grid) const;
+
   std::vector<SpringFamily> families_;
   /// Stiffness by column of each family's first end, a row for each of the six.
   std::vector<Real, AlignedAllocator<Real>> columns_;

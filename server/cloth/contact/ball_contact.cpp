@@ -27,6 +27,7 @@ class Node {
   Node(Particles<Real>& particles, int row, int col)
       : particles_(particles), row_(row), col_(col), position_(particles.position_at(row, col)) {}
 
+  std::size_t index() const { return particles_.grid().index(row_, col_); }
   const Vec3& position() const { return position_; }
   bool inside(const PlacedBall& ball) const {
     return (position_ - ball.centre).squaredNorm() < ball.squared_radius;
@@ -43,18 +44,23 @@ class Node {
     } while (inside(ball));
   }
 
-  /// Takes away the velocity, relative to the ball's, that points against `normal`; the ball gets its
-  /// momentum.
+  /// Takes away the velocity, relative to the ball's, that points against `normal`, and what friction then
+  /// takes of the rest; the ball gets the momentum.
   void stop_inward_velocity(Ball& ball, const Vec3& normal) {
     const Vec3 velocity = particles_.velocity_at(row_, col_);
-    const double inward = (velocity - ball.velocity).dot(normal);
+    const Vec3 relative = velocity - ball.velocity;
+    const double inward = relative.dot(normal);
     if (!(inward < 0)) return;
-    const Vec3 stopped = velocity - inward * normal;
+    Vec3 lost = inward * normal;
+    const Vec3 sliding = relative - lost;
+    const double speed = sliding.norm();
+    if (ball.friction > 0 && speed > 0) lost += std::min(1.0, -ball.friction * inward / speed) * sliding;
+    const Vec3 stopped = velocity - lost;
     particles_.velocity.x.at(row_, col_) = static_cast<Real>(stopped.x());
     particles_.velocity.y.at(row_, col_) = static_cast<Real>(stopped.y());
     particles_.velocity.z.at(row_, col_) = static_cast<Real>(stopped.z());
     if (ball.motion == BallDescription::Motion::dynamic) {
-      ball.impulse += double(particles_.mass.at(row_, col_)) * inward * normal;
+      ball.impulse += double(particles_.mass.at(row_, col_)) * lost;
     }
   }
 
@@ -87,7 +93,8 @@ double way_out(const PlacedBall& ball, const Vec3& origin, const Vec3& direction
 
 /// Brings a node that is inside some ball out of all of them; false if it is in none.
 template <class Real>
-bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed) {
+bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed,
+                  std::vector<Touch>& touches) {
   Vec3 middle(0, 0, 0);  // of the balls it was found in
   int found = 0;
   for (int round = 0; round < kProjections; ++round) {
@@ -97,6 +104,7 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
       const Vec3 normal = outwards(placed[b].centre, node.position());
       node.put_outside(placed[b], placed[b].centre, normal, placed[b].radius);
       node.stop_inward_velocity(balls[b], normal);
+      if (round == 0) touches.push_back({node.index(), balls[b].id});
       middle += placed[b].centre;
       ++found;
       moved = true;
@@ -122,6 +130,7 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
 
 template <class Real>
 int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to) {
+  touches_.clear();
   const std::vector<TileBallPair>& pairs = broad_phase_.find_pairs(particles.position, balls, from, to);
   if (pairs.empty()) return 0;
   std::vector<PlacedBall> placed;
@@ -154,7 +163,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
       for (int c = 0; c < cols; ++c) {
         if (particles.inverse_mass.at(tile.row_begin + r, tile.col_begin + c) == Real(0)) continue;
         Node<Real> node(particles, tile.row_begin + r, tile.col_begin + c);
-        if (resolve_node(node, balls, placed)) ++in_contact;
+        if (resolve_node(node, balls, placed, touches_)) ++in_contact;
       }
     }
   }

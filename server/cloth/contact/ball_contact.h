@@ -17,9 +17,16 @@ struct ContactCounters {
   }
 };
 
+/// A node on a ball.
+struct Touch {
+  std::size_t node = 0;  ///< index into the grid's arrays
+  BallId ball = 0;
+};
+
 /// The paper's section 2.4, second half: in the struck tiles a particle inside a ball is pushed back to its
-/// surface and loses the part of its velocity, relative to the ball, that points into it. A particle at the
-/// very centre leaves upwards. Pinned nodes stay. The momentum taken is given to dynamic balls
+/// surface and loses the part of its velocity, relative to the ball, that points into it. Coulomb's friction,
+/// which the paper has not, slows what is left of it by up to friction times the speed lost. A particle at
+/// the very centre leaves upwards. Pinned nodes stay. The momentum taken is given to dynamic balls
 /// (Ball::impulse).
 template <class Real>
 class BallContact {
@@ -30,12 +37,15 @@ class BallContact {
   /// Returns the number of nodes in contact in this call.
   int resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to);
 
+  /// What the last resolve found in contact, ordered by tile, then node.
+  const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
 
  private:
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
+  std::vector<Touch> touches_;
 };
 
 extern template class BallContact<float>;

@@ -34,6 +34,15 @@ double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
 }
 
 template <class Real>
+void Aerodynamics<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
+                                     const DampingMatrix<Real>& damping) const {
+  kernels::add_air_damping(particles.grid(), kernels::components(particles.position),
+                           kernels::components(particles.velocity), air_of<Real>(*context.wind),
+                           static_cast<Real>(0.5 * parameters_.air_density * parameters_.drag),
+                           damping.blocks);
+}
+
+template <class Real>
 double Aerodynamics<Real>::rate_per_flow(const Particles<Real>& particles) const {
   // -dF/dv of a face is rho C |w.A| n n^T, shared by its four corners. A node in the middle of the grid has
   // a quarter of each of its four faces; on the border it has fewer faces, and no more of them for its mass.

@@ -12,6 +12,9 @@ class Aerodynamics final : public Effect<Real> {
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
+  void add_damping(const Particles<Real>& particles, const EffectContext& context,
+                   const DampingMatrix<Real>& damping) const override;
+  bool needs_blocks() const override { return true; }
 
  private:
   /// Damping rate, 1/s, that a flow |w.A| of 1 m3/s through every face gives a node.

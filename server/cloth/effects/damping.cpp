@@ -35,6 +35,18 @@ double Damping<Real>::max_damping_rate(const Particles<Real>& particles, const E
   return material.damping * double(most);
 }
 
+template <class Real>
+void Damping<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
+                                const DampingMatrix<Real>& damping) const {
+  const Material& material = context.cloth->material;
+  const bool paper = context.cloth->discretization == Discretization::paper;
+  const Real per_node = paper ? static_cast<Real>(material.damping) : Real(0);
+  const Real per_mass = paper ? Real(0) : static_cast<Real>(material.damping / material.density);
+  const Real* mass = particles.mass.row(0);
+  for (std::size_t i = 0; i < particles.grid().size(); ++i)
+    damping.scalar[i] += per_node + per_mass * mass[i];
+}
+
 template class Damping<float>;
 template class Damping<double>;
 

@@ -13,6 +13,8 @@ class Damping final : public Effect<Real> {
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
+  void add_damping(const Particles<Real>& particles, const EffectContext& context,
+                   const DampingMatrix<Real>& damping) const override;
 
  private:
   DampingEffect parameters_;

@@ -26,6 +26,10 @@ double Effect<Real>::max_damping_rate(const Particles<Real>&, const EffectContex
 }
 
 template <class Real>
+void Effect<Real>::add_damping(const Particles<Real>&, const EffectContext&,
+                               const DampingMatrix<Real>&) const {}
+
+template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions) {
   std::vector<std::unique_ptr<Effect<Real>>> effects;
   effects.reserve(descriptions.size());

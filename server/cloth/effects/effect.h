@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloth/description.h"
+#include "cloth/kernels/link_kernels.h"
 #include "cloth/particles.h"
 
 namespace weft {
@@ -18,6 +19,13 @@ struct EffectContext {
   double damping_limit = std::numeric_limits<double>::infinity();
 };
 
+/// -dF/dv of a cloth as the implicit methods take it, N s/m: at every node a scalar and a symmetric matrix.
+template <class Real>
+struct DampingMatrix {
+  Real* scalar;
+  kernels::Blocks<Real> blocks;  ///< null unless some effect needs_blocks()
+};
+
 /// Something a scene asks to be simulated: adds its force for a whole cloth at once, no call per particle.
 template <class Real>
 class Effect {
@@ -30,6 +38,12 @@ class Effect {
   /// Largest damping rate -dF/dv / m of any node, 1/s: what an explicit step must respect. 0 for forces
   /// without v.
   virtual double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const;
+  /// Adds -dF/dv of every node, its couplings to other nodes lumped: never less than the true one. Nothing
+  /// for forces without v.
+  virtual void add_damping(const Particles<Real>& particles, const EffectContext& context,
+                           const DampingMatrix<Real>& damping) const;
+  /// Whether add_damping writes blocks.
+  virtual bool needs_blocks() const { return false; }
 };
 
 extern template class Effect<float>;

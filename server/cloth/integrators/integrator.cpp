@@ -1,8 +1,27 @@
 #include "cloth/integrators/integrator.h"
 
+#include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
 
 namespace weft {
+namespace {
+
+/// Which class does which description.
+template <class Real>
+struct Maker {
+  using Made = std::unique_ptr<Integrator<Real>>;
+  Made operator()(const SymplecticEulerDescription& d) const {
+    return std::make_unique<SymplecticEuler<Real>>(d);
+  }
+  Made operator()(const BackwardEulerDescription& d) const {
+    return std::make_unique<Implicit<Real>>(d.kName, d, false);
+  }
+  Made operator()(const Bdf2Description& d) const {
+    return std::make_unique<Implicit<Real>>(d.kName, d, true);
+  }
+};
+
+}  // namespace
 
 template <class Real>
 void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& force) const {
@@ -13,11 +32,7 @@ void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& forc
 
 template <class Real>
 std::unique_ptr<Integrator<Real>> make_integrator(const IntegratorDescription& description) {
-  return std::visit(
-      [](const SymplecticEulerDescription& d) -> std::unique_ptr<Integrator<Real>> {
-        return std::make_unique<SymplecticEuler<Real>>(d);
-      },
-      description);
+  return std::visit(Maker<Real>{}, description);
 }
 
 template struct Forces<float>;

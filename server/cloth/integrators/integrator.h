@@ -22,12 +22,13 @@ struct Forces {
 struct AdvanceReport {
   int substeps = 0;
   int nodes_in_contact = 0;    ///< at the end of the step
+  int linear_iterations = 0;   ///< of implicit methods, all substeps together
   double forces_seconds = 0;   ///< wall time
   double contact_seconds = 0;  ///< wall time
 };
 
-/// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods; it
-/// keeps its own work arrays and no state that the particles do not show.
+/// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods. It
+/// keeps work arrays; what it remembers of earlier steps, if anything, restart() makes it forget.
 template <class Real>
 class Integrator {
  public:
@@ -37,6 +38,8 @@ class Integrator {
   /// step.
   virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
                                 std::vector<Ball>& balls, double time, double dt) = 0;
+  /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
+  virtual void restart() {}
 };
 
 template <class Real>

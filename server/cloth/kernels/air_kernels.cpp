@@ -90,6 +90,55 @@ template <class Real>
   }
 }
 
+/// -dF/dv of each face's corners, see add_air_damping.
+template <class Real>
+[[gnu::always_inline]] inline void damping_block(const Components<const Real>& p,
+                                                 const Components<const Real>& v, std::size_t first,
+                                                 std::size_t stride, int count, const Uniform<Real>& air,
+                                                 Real factor, const Blocks<Real>& faces) {
+  const Real smallest = std::numeric_limits<Real>::min();
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = 0; c < count; ++c) {
+    const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
+    const Real flow = (air.x - face.vx * Real(0.25)) * face.ax + (air.y - face.vy * Real(0.25)) * face.ay +
+                      (air.z - face.vz * Real(0.25)) * face.az;
+    const Real squared = face.ax * face.ax + face.ay * face.ay + face.az * face.az;
+    const Real scale = Real(0.25) * factor * std::abs(flow) / (squared + smallest);
+    faces.xx[c] = scale * face.ax * face.ax;
+    faces.xy[c] = scale * face.ax * face.ay;
+    faces.xz[c] = scale * face.ax * face.az;
+    faces.yy[c] = scale * face.ay * face.ay;
+    faces.yz[c] = scale * face.ay * face.az;
+    faces.zz[c] = scale * face.az * face.az;
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_damping(const Grid& grid, const Components<const Real>& p,
+                                               const Components<const Real>& v, const Uniform<Real>& air,
+                                               Real factor, const Blocks<Real>& damping) {
+  alignas(64) Real work[6][kRowAlign + kBlock + kRowAlign] = {};
+  const Blocks<Real> faces{work[0] + kRowAlign, work[1] + kRowAlign, work[2] + kRowAlign,
+                           work[3] + kRowAlign, work[4] + kRowAlign, work[5] + kRowAlign};
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
+    const int count = std::min(kBlock, grid.cols - 1 - begin);
+    for (auto& row : work) row[kRowAlign + count] = Real(0);
+    for (int r = 0; r + 1 < grid.rows; ++r) {
+      const std::size_t first = grid.index(r, begin);
+      damping_block(p, v, first, stride, count, air, factor, faces);
+      for (const std::size_t row : {first, first + stride}) {
+        add_to_corners(damping.xx + row, faces.xx, count);
+        add_to_corners(damping.xy + row, faces.xy, count);
+        add_to_corners(damping.xz + row, faces.xz, count);
+        add_to_corners(damping.yy + row, faces.yy, count);
+        add_to_corners(damping.yz + row, faces.yz, count);
+        add_to_corners(damping.zz + row, faces.zz, count);
+      }
+    }
+  }
+}
+
 template <class Real>
 [[gnu::always_inline]] inline Real max_flow(const Grid& grid, const Components<const Real>& p,
                                             const Components<const Real>& v, const Uniform<Real>& air) {
@@ -186,6 +235,17 @@ WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const doubl
                                         Components<const double> velocity, const Uniform<double>& air,
                                         double factor, double most_flow, Components<double> force) {
   add_pressure(grid, position, velocity, air, factor, most_flow, force);
+}
+
+WEFT_MULTIVERSION void add_air_damping(const Grid& grid, Components<const float> position,
+                                       Components<const float> velocity, const Uniform<float>& air,
+                                       float factor, const Blocks<float>& damping) {
+  add_damping<float>(grid, position, velocity, air, factor, damping);
+}
+WEFT_MULTIVERSION void add_air_damping(const Grid& grid, Components<const double> position,
+                                       Components<const double> velocity, const Uniform<double>& air,
+                                       double factor, const Blocks<double>& damping) {
+  add_damping<double>(grid, position, velocity, air, factor, damping);
 }
 
 WEFT_MULTIVERSION float max_air_flow(const Grid& grid, Components<const float> position,

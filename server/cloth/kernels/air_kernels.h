@@ -1,5 +1,6 @@
 #pragma once
 #include "cloth/kernels/components.h"
+#include "cloth/kernels/link_kernels.h"
 
 namespace weft::kernels {
 
@@ -17,6 +18,13 @@ void add_air_pressure(const Grid& grid, Components<const float> position, Compon
                       const Uniform<float>& air, float factor, float most_flow, Components<float> force);
 void add_air_pressure(const Grid& grid, Components<const double> position, Components<const double> velocity,
                       const Uniform<double>& air, double factor, double most_flow, Components<double> force);
+
+/// Adds -dF/dv of add_air_pressure (without a limit to the flow) to every node's matrix, N s/m: of each face
+/// 2 factor |w.A| n n^T, a quarter to each corner as if only that corner moved the face's air.
+void add_air_damping(const Grid& grid, Components<const float> position, Components<const float> velocity,
+                     const Uniform<float>& air, float factor, const Blocks<float>& damping);
+void add_air_damping(const Grid& grid, Components<const double> position, Components<const double> velocity,
+                     const Uniform<double>& air, double factor, const Blocks<double>& damping);
 
 /// Largest |w.A| of any face, m3/s.
 float max_air_flow(const Grid& grid, Components<const float> position, Components<const float> velocity,

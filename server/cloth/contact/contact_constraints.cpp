@@ -1,0 +1,106 @@
+#include "cloth/contact/contact_constraints.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// Slower than this, m/s, friction holds: a creep too slow to see.
+constexpr double kStickingSpeed = 1e-4;
+/// Stiffness of a contact, as multiples of the links' and of the inertia's at the node. More would cost
+/// digits in single precision; the depth it leaves under a cloth's own weight is far below a micrometre.
+constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
+
+template <class Real>
+Vec3 at(const kernels::Components<const Real>& field, std::size_t i) {
+  return {double(field.x[i]), double(field.y[i]), double(field.z[i])};
+}
+
+template <class Real>
+void add(const kernels::Components<Real>& field, std::size_t i, const Vec3& value) {
+  field.x[i] += static_cast<Real>(value.x());
+  field.y[i] += static_cast<Real>(value.y());
+  field.z[i] += static_cast<Real>(value.z());
+}
+
+/// blocks += along n n^T + across (I - n n^T).
+template <class Real>
+void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Vec3& n, double along,
+               double across) {
+  const double both = along - across;
+  blocks.xx[i] += static_cast<Real>(across + both * n.x() * n.x());
+  blocks.xy[i] += static_cast<Real>(both * n.x() * n.y());
+  blocks.xz[i] += static_cast<Real>(both * n.x() * n.z());
+  blocks.yy[i] += static_cast<Real>(across + both * n.y() * n.y());
+  blocks.yz[i] += static_cast<Real>(both * n.y() * n.z());
+  blocks.zz[i] += static_cast<Real>(across + both * n.z() * n.z());
+}
+
+}  // namespace
+
+template <class Real>
+void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
+                                     const std::vector<Ball>& balls, double from, double to, double h) {
+  std::swap(last_, constraints_);
+  constraints_.clear();
+  h_ = h;
+  const kernels::Components<const Real> position = kernels::components(particles.position),
+                                        velocity = kernels::components(particles.velocity);
+  const auto key = [](const Touch& touch) { return std::pair(touch.node, touch.ball); };
+  const auto before = [&](const Constraint& c, const Touch& touch) { return key(c.touch) < key(touch); };
+  for (const Touch& touch : touches) {
+    const auto ball =
+        std::find_if(balls.begin(), balls.end(), [&](const Ball& b) { return b.id == touch.ball; });
+    if (ball == balls.end()) continue;
+    const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
+    const double force = same != last_.end() && key(same->touch) == key(touch) ? same->force : 0.0;
+
+    const Vec3 centre = ball->at(to), move = centre - ball->at(from);
+    const Vec3 start = at(position, touch.node), guess = h * at(velocity, touch.node);
+    const Vec3 offset = start + guess - centre;
+    const double length = offset.norm();
+    const Vec3 normal = length > 0 ? Vec3(offset / length) : Vec3(0, 1, 0);
+    const Vec3 slip = guess - move;
+    const double sliding = (slip - slip.dot(normal) * normal).norm();
+    constraints_.push_back({touch, static_cast<std::size_t>(ball - balls.begin()), normal,
+                            ball->radius - normal.dot(start - centre), move,
+                            ball->friction * force / std::max(sliding, kStickingSpeed * h)});
+  }
+  std::sort(constraints_.begin(), constraints_.end(),
+            [&](const Constraint& a, const Constraint& b) { return key(a.touch) < key(b.touch); });
+}
+
+template <class Real>
+void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
+                                      const Real* diagonal, double links_stiffness,
+                                      kernels::Components<const Real> move) {
+  for (Constraint& c : constraints_) {
+    const std::size_t i = c.touch.node;
+    c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
+    const Vec3 moved = at(move, i), slip = c.ball_move - moved;
+    add_block(blocks, i, c.normal, c.stiffness, c.friction_stiffness);
+    add(b, i,
+        c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal +
+            c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
+  }
+}
+
+template <class Real>
+void ContactConstraints<Real>::finish(kernels::Components<const Real> move, std::vector<Ball>& balls) {
+  for (Constraint& c : constraints_) {
+    const Vec3 moved = at(move, c.touch.node), slip = c.ball_move - moved;
+    c.force = c.stiffness * (c.distance - c.normal.dot(moved));
+    Ball& ball = balls[c.ball];
+    if (ball.motion == BallDescription::Motion::dynamic) {
+      ball.impulse -=
+          h_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
+    }
+    c.force = std::max(0.0, c.force);
+  }
+}
+
+template class ContactConstraints<float>;
+template class ContactConstraints<double>;
+
+}  // namespace weft

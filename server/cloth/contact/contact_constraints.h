@@ -1,0 +1,54 @@
+#pragma once
+#include "cloth/contact/ball_contact.h"
+#include "cloth/kernels/link_kernels.h"
+
+namespace weft {
+
+/// Contacts as a part of an implicit step's linear system. A node that touched a ball at the end of the last
+/// step is held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along
+/// with the ball by Coulomb friction: a force of at most friction times the normal force, that of the step
+/// before. What little the spring gives, and nodes that arrive, BallContact::resolve puts right after the
+/// step; a node that is pulled off is free in the next.
+template <class Real>
+class ContactConstraints {
+ public:
+  /// Nodes that touched, with forces from the last step; positions and velocities as the substep begins.
+  /// The substep goes from fraction `from` to `to` of the step and takes `h` seconds.
+  void begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
+             const std::vector<Ball>& balls, double from, double to, double h);
+  void clear() { constraints_.clear(); }
+  bool empty() const { return constraints_.empty(); }
+
+  /// Adds the constraints to the system of a Newton iteration at `move`. `links_stiffness` is the sum of the
+  /// link stiffnesses at a node, N/m, and `diagonal` the system's: together they set how stiff the springs
+  /// are.
+  void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, const Real* diagonal,
+              double links_stiffness, kernels::Components<const Real> move);
+  /// Reads the forces off the solution and gives the dynamic balls their share of momentum.
+  void finish(kernels::Components<const Real> move, std::vector<Ball>& balls);
+
+  /// Calls visit(node index) for every constrained node.
+  template <class Visit>
+  void for_each_node(Visit visit) const {
+    for (const Constraint& constraint : constraints_) visit(constraint.touch.node);
+  }
+
+ private:
+  struct Constraint {
+    Touch touch;
+    std::size_t ball;  ///< index
+    Vec3 normal;
+    double distance;            ///< that the node must move along the normal, m
+    Vec3 ball_move;             ///< in the substep, m
+    double friction_stiffness;  ///< N/m
+    double stiffness = 0;       ///< N/m
+    double force = 0;           ///< along the normal, N
+  };
+  std::vector<Constraint> constraints_, last_;
+  double h_ = 0;
+};
+
+extern template class ContactConstraints<float>;
+extern template class ContactConstraints<double>;
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+
+#include "cloth/contact/contact_constraints.h"
+#include "cloth/integrators/integrator.h"
+#include "cloth/kernels/implicit_kernels.h"
+#include "cloth/solver/conjugate_gradients.h"
+
+namespace weft {
+
+/// Backward Euler and BDF2 (Hairer and Wanner, Solving Ordinary Differential Equations II, 1996): the new
+/// state is found from the forces that act in it, by Newton's method on the nodes' moves. Each iteration
+/// linearises springs, effects and contacts and solves one system by multigrid conjugate gradients.
+///
+/// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
+/// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
+/// motion that the formula extrapolates.
+template <class Real>
+class Implicit final : public Integrator<Real> {
+ public:
+  Implicit(const char* name, const ImplicitParameters& parameters, bool second_order)
+      : name_(name), parameters_(parameters), second_order_(second_order) {}
+  const char* name() const override { return name_; }
+  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
+                        std::vector<Ball>& balls, double time, double dt) override;
+  void restart() override { state_.reset(); }
+
+ private:
+  /// All that lives on one grid.
+  struct State {
+    State(const Grid& grid, bool has_bending);
+
+    Multigrid<Real> system;
+    ConjugateGradients<Real> solver;
+    NodeArrays<Real> numbers, vectors;
+    VectorField<Real> start, start_velocity, force;
+    kernels::BackwardStep<Real> step;
+    Real* second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
+    kernels::Components<Real> last_move, last_velocity;
+    kernels::Components<Real> position;  ///< of the iterate, with margins
+    kernels::Components<Real> b, change, move;
+    ContactConstraints<Real> contacts;
+  };
+
+  void begin_step(const Particles<Real>& particles, const Springs<Real>& springs);
+  void begin_substep(const Particles<Real>& particles, double h);
+  /// Linearises at the particles' state and assembles the system for the change of the move.
+  void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
+  LinearSolveReport solve(const Particles<Real>& particles, double h);
+  void end_substep(Particles<Real>& particles, const BallContact<Real>* contact, double h);
+
+  const char* name_;
+  ImplicitParameters parameters_;
+  bool second_order_;
+  std::optional<State> state_;
+};
+
+extern template class Implicit<float>;
+extern template class Implicit<double>;
+
+}  // namespace weft

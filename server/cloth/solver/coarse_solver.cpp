@@ -1,0 +1,109 @@
+#include "cloth/solver/coarse_solver.h"
+
+#include <Eigen/SparseCholesky>
+
+namespace weft {
+
+template <class Real>
+struct CoarseSolver<Real>::Impl {
+  Grid grid;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+  Eigen::VectorXd right_hand_side, solution;
+  std::vector<char> free;
+  bool analysed = false;
+
+  int unknown(int r, int c) const { return 3 * (r * grid.cols + c); }
+
+  void add(int row, int col, const Eigen::Matrix3d& block) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) entries.emplace_back(row + i, col + j, block(i, j));
+    }
+  }
+
+  /// A link between the node at (r, c) and the one `rows` below and `cols` to the right. Fixed ends keep
+  /// their place in the pattern, so that it need not be analysed again.
+  void add_link(const kernels::Blocks<Real>& links, const Matrix& m, int r, int c, int rows, int cols) {
+    if (r + rows >= grid.rows || c + cols >= grid.cols || c + cols < 0) return;
+    const Eigen::Matrix3d block = block_at(links, grid.index(r, c));
+    const bool free_1 = m.free[grid.index(r, c)] > Real(0);
+    const bool free_2 = m.free[grid.index(r + rows, c + cols)] > Real(0);
+    const int one = unknown(r, c), two = unknown(r + rows, c + cols);
+    const Eigen::Matrix3d coupling = free_1 && free_2 ? Eigen::Matrix3d(-block) : Eigen::Matrix3d::Zero();
+    if (free_1) add(one, one, block);
+    if (free_2) add(two, two, block);
+    add(one, two, coupling);
+    add(two, one, coupling);
+  }
+
+  static Eigen::Matrix3d block_at(const kernels::Blocks<Real>& b, std::size_t i) {
+    const auto xy = double(b.xy[i]), xz = double(b.xz[i]), yz = double(b.yz[i]);
+    return Eigen::Matrix3d{{double(b.xx[i]), xy, xz}, {xy, double(b.yy[i]), yz}, {xz, yz, double(b.zz[i])}};
+  }
+};
+
+template <class Real>
+CoarseSolver<Real>::CoarseSolver(const Grid& grid) : impl_(std::make_unique<Impl>()) {
+  impl_->grid = grid;
+  impl_->matrix.resize(3 * grid.nodes(), 3 * grid.nodes());
+  impl_->right_hand_side.setZero(3 * grid.nodes());
+}
+template <class Real>
+CoarseSolver<Real>::~CoarseSolver() = default;
+template <class Real>
+CoarseSolver<Real>::CoarseSolver(CoarseSolver&&) noexcept = default;
+template <class Real>
+CoarseSolver<Real>& CoarseSolver<Real>::operator=(CoarseSolver&&) noexcept = default;
+
+template <class Real>
+void CoarseSolver<Real>::factorise(const Matrix& m) {
+  Impl& s = *impl_;
+  s.entries.clear();
+  for (int r = 0; r < s.grid.rows; ++r) {
+    for (int c = 0; c < s.grid.cols; ++c) {
+      const std::size_t i = s.grid.index(r, c);
+      const bool is_free = m.free[i] > Real(0);
+      Eigen::Matrix3d diagonal = Eigen::Matrix3d::Identity() * (is_free ? double(m.diagonal[i]) : 1.0);
+      if (is_free && m.has_blocks) diagonal += Impl::block_at(m.blocks, i);
+      s.add(s.unknown(r, c), s.unknown(r, c), diagonal);
+      s.add_link(m.links.along_u, m, r, c, 0, 1);
+      s.add_link(m.links.along_v, m, r, c, 1, 0);
+      s.add_link(m.links.falling, m, r, c, 1, 1);
+      s.add_link(m.links.rising, m, r, c, 1, -1);
+    }
+  }
+  s.matrix.setFromTriplets(s.entries.begin(), s.entries.end());
+  if (!s.analysed) s.factors.analyzePattern(s.matrix);
+  s.analysed = true;
+  s.factors.factorize(s.matrix);
+  s.free.assign(s.grid.size(), 0);
+  for (std::size_t i = 0; i < s.free.size(); ++i) s.free[i] = m.free[i] > Real(0);
+}
+
+template <class Real>
+void CoarseSolver<Real>::solve(kernels::Components<const Real> b, kernels::Components<Real> x) {
+  Impl& s = *impl_;
+  const auto for_each_node = [&](auto visit) {
+    for (int r = 0; r < s.grid.rows; ++r) {
+      for (int c = 0; c < s.grid.cols; ++c) visit(s.unknown(r, c), s.grid.index(r, c));
+    }
+  };
+  for_each_node([&](int row, std::size_t i) {
+    const double free = s.free[i];
+    s.right_hand_side[row] = free * double(b.x[i]);
+    s.right_hand_side[row + 1] = free * double(b.y[i]);
+    s.right_hand_side[row + 2] = free * double(b.z[i]);
+  });
+  s.solution = s.factors.solve(s.right_hand_side);
+  for_each_node([&](int row, std::size_t i) {
+    x.x[i] = static_cast<Real>(s.solution[row]);
+    x.y[i] = static_cast<Real>(s.solution[row + 1]);
+    x.z[i] = static_cast<Real>(s.solution[row + 2]);
+  });
+}
+
+template class CoarseSolver<float>;
+template class CoarseSolver<double>;
+
+}  // namespace weft

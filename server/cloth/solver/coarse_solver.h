@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+
+#include "cloth/kernels/link_kernels.h"
+
+namespace weft {
+
+/// Direct solution on the coarsest grid: Eigen's sparse Cholesky factors, in double. Seen by the multigrid
+/// only.
+template <class Real>
+class CoarseSolver {
+ public:
+  using Matrix = kernels::LinkMatrix<Real, kernels::Blocks<Real>>;
+
+  explicit CoarseSolver(const Grid& grid);
+  ~CoarseSolver();
+  CoarseSolver(CoarseSolver&&) noexcept;
+  CoarseSolver& operator=(CoarseSolver&&) noexcept;
+
+  /// Takes up the matrix's numbers.
+  void factorise(const Matrix& matrix);
+  /// x = A^-1 b on the free nodes, 0 on the others.
+  void solve(kernels::Components<const Real> b, kernels::Components<Real> x);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+extern template class CoarseSolver<float>;
+extern template class CoarseSolver<double>;
+
+}  // namespace weft

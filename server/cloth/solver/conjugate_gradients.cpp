@@ -1,0 +1,41 @@
+#include "cloth/solver/conjugate_gradients.h"
+
+#include "cloth/kernels/implicit_kernels.h"
+
+namespace weft {
+
+template <class Real>
+LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kernels::Components<const Real> b,
+                                                  kernels::Components<Real> x, double target,
+                                                  int max_iterations) {
+  const Grid& grid = system.grid();
+  const std::size_t count = grid.size();
+  kernels::Components<Real> p = vectors_.vector(0), q = vectors_.vector(3), r = vectors_.vector(6);
+  LinearSolveReport report;
+  // The multiple of the guess that lies nearest in the energy norm: never farther than zero is.
+  const double size = system.multiply(x, q);
+  const double scale = size > 0 ? kernels::dot<Real>(b, x, grid) / size : 0.0;
+  kernels::scale_guess<Real>(x, b, q, r, static_cast<Real>(scale), count);
+  double rz = system.precondition(r, p);
+  while (rz > 0 && report.iterations < max_iterations) {
+    const double curvature = system.multiply(p, q);
+    if (!(curvature > 0)) break;
+    const double step = rz / curvature;
+    kernels::advance_along<Real>(x, p, r, q, static_cast<Real>(step), count);
+    ++report.iterations;
+    if (step * rz <= target) {
+      report.converged = true;
+      break;
+    }
+    const double next = system.precondition(r, q);
+    kernels::turn_towards<Real>(p, q, static_cast<Real>(next / rz), count);
+    rz = next;
+  }
+  report.converged = report.converged || rz == 0;
+  return report;
+}
+
+template class ConjugateGradients<float>;
+template class ConjugateGradients<double>;
+
+}  // namespace weft

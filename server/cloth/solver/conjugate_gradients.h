@@ -1,0 +1,33 @@
+#pragma once
+#include "cloth/solver/multigrid.h"
+
+namespace weft {
+
+struct LinearSolveReport {
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Conjugate gradients on Multigrid's system (Shewchuk, An Introduction to the Conjugate Gradient Method,
+/// 1994), preconditioned by its cycle. Keeps its vectors from one call to the next.
+template <class Real>
+class ConjugateGradients {
+ public:
+  explicit ConjugateGradients(const Grid& grid) : vectors_(grid, 9) {}
+
+  /// Improves x, the guess, until an iteration's progress in the squared energy norm x . A x, an estimate of
+  /// the squared error before it (Hestenes and Stiefel 1952), is at most `target`, J, or for
+  /// `max_iterations`. Wherever it stops, x . A x / 2 - b . x is not above 0, its value for no move at all:
+  /// an implicit step so left unfinished loses energy and gains none. `b` and `x` lie in arrays with margins
+  /// and are 0 at fixed nodes.
+  LinearSolveReport solve(Multigrid<Real>& system, kernels::Components<const Real> b,
+                          kernels::Components<Real> x, double target, int max_iterations);
+
+ private:
+  NodeArrays<Real> vectors_;
+};
+
+extern template class ConjugateGradients<float>;
+extern template class ConjugateGradients<double>;
+
+}  // namespace weft

@@ -1,0 +1,67 @@
+#pragma once
+#include <optional>
+
+#include "cloth/solver/coarse_solver.h"
+#include "cloth/solver/node_arrays.h"
+
+namespace weft {
+
+/// One grid of the hierarchy: its matrix and the vectors of a cycle, with their storage.
+template <class Real, class Links>
+struct GridLevel {
+  GridLevel(const Grid& grid, bool has_bending);
+  GridLevel(GridLevel&&) noexcept = default;  // not to be copied: the views below point into the storage
+
+  kernels::LinkMatrix<Real, Links> matrix;
+  kernels::Blocks<Real> inverse;  ///< of the diagonal blocks, damped
+  kernels::Components<Real> b, x, y;
+
+  Real* diagonal() { return numbers_[0]; }
+  Real* free() { return numbers_[1]; }
+  /// With blocks in the diagonal, all zero, or without.
+  void use_blocks(bool use);
+
+ private:
+  NodeArrays<Real> numbers_, links_, blocks_, inverse_, vectors_;
+};
+
+/// The linear system of an implicit step, A x = b with A as in link_kernels.h, and its preconditioner: one
+/// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The
+/// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
+/// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
+template <class Real>
+class Multigrid {
+ public:
+  /// For grids with an even number of cells on both sides; coarsens while that holds.
+  Multigrid(const Grid& finest, bool has_bending);
+
+  const Grid& grid() const { return finest_.matrix.grid; }
+  int levels() const { return 1 + static_cast<int>(coarse_.size()); }
+
+  /// To be written before prepare(): the finest links, diagonal, free nodes and, if it is to have any,
+  /// blocks. Zero at first.
+  GridLevel<Real, kernels::SpringLinks<Real>>& finest() { return finest_; }
+  /// Builds the coarse matrices and all that a cycle needs.
+  void prepare();
+
+  /// y = A x; returns x . y.
+  double multiply(kernels::Components<const Real> x, kernels::Components<Real> y);
+  /// z = one cycle on r, an approximation of A^-1 r; returns r . z.
+  double precondition(kernels::Components<const Real> r, kernels::Components<Real> z);
+
+ private:
+  using Coarse = GridLevel<Real, kernels::Blocks<Real>>;
+  template <class Links>
+  double cycle(GridLevel<Real, Links>& level, std::size_t next, kernels::Components<const Real> b,
+               kernels::Components<Real> z);
+
+  GridLevel<Real, kernels::SpringLinks<Real>> finest_;
+  std::vector<Coarse> coarse_;  ///< fine to coarse
+  std::optional<CoarseSolver<Real>> coarsest_;
+  std::vector<Real, AlignedAllocator<Real>> work_;
+};
+
+extern template class Multigrid<float>;
+extern template class Multigrid<double>;
+
+}  // namespace weft
