@@ -1,8 +1,22 @@
 #include "cloth/integrators/integrator.h"
 
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/integrators/xpbd.h"
 
 namespace weft {
+namespace {
+
+/// Which class follows which description.
+template <class Real>
+struct Maker {
+  using Made = std::unique_ptr<Integrator<Real>>;
+  Made operator()(const SymplecticEulerDescription& d) const {
+    return std::make_unique<SymplecticEuler<Real>>(d);
+  }
+  Made operator()(const XpbdDescription& d) const { return std::make_unique<Xpbd<Real>>(d); }
+};
+
+}  // namespace
 
 template <class Real>
 void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& force) const {
@@ -12,12 +26,21 @@ void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& forc
 }
 
 template <class Real>
+void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const {
+  force.fill(Real(0));
+  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+double Forces<Real>::max_damping_rate(const Particles<Real>& particles) const {
+  double sum = 0;
+  for (const auto& effect : *effects) sum += effect->max_damping_rate(particles, context);
+  return sum;
+}
+
+template <class Real>
 std::unique_ptr<Integrator<Real>> make_integrator(const IntegratorDescription& description) {
-  return std::visit(
-      [](const SymplecticEulerDescription& d) -> std::unique_ptr<Integrator<Real>> {
-        return std::make_unique<SymplecticEuler<Real>>(d);
-      },
-      description);
+  return std::visit(Maker<Real>{}, description);
 }
 
 template struct Forces<float>;
