@@ -108,7 +108,7 @@ struct SymplecticEulerDescription {
 /// Every spring a constraint, projected once a substep: bounded whatever the stiffness, softer than asked for
 /// until the substeps are many (xpbd.h says by how much).
 struct XpbdDescription {
-  int substeps = 20;  ///< per step; >= 1. Twice as many stretch a quarter as much beyond the springs' own.
+  int substeps = 40;  ///< per step; >= 1. Twice as many leave a quarter of the excess stretch.
   static constexpr const char* kName = "xpbd";
 };
 using IntegratorDescription = std::variant<SymplecticEulerDescription, XpbdDescription>;

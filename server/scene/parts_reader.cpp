@@ -28,6 +28,24 @@ std::vector<Waypoint> read_path(Object& ball) {
   return path;
 }
 
+constexpr Range kSubsteps{1, 10000};
+
+SymplecticEulerDescription read_symplectic_euler(Object& object) {
+  constexpr Range kSafety{0.01, 1};
+  SymplecticEulerDescription euler;
+  const json* substeps = object.find("substeps");
+  if (substeps && *substeps != "auto") {
+    if (substeps->is_string()) {
+      object.report().refuse(*substeps, object.path("substeps"),
+                             "\"auto\" or an integer " + kSubsteps.text());
+    } else {
+      object.integer("substeps", euler.substeps, kSubsteps);
+    }
+  }
+  object.number("safety", euler.safety, kSafety);
+  return euler;
+}
+
 }  // namespace
 
 std::optional<BallDescription> read_collider(const json& value, const std::string& path, Report& report) {
@@ -102,25 +120,20 @@ Wind read_wind(const json& value, const std::string& path, Report& report) {
 }
 
 IntegratorDescription read_integrator(const json& value, const std::string& path, Report& report) {
-  constexpr Range kSubsteps{1, 10000};
-  constexpr Range kSafety{0.01, 1};
-  SymplecticEulerDescription euler;
   Object object(value, path, report);
   object.require("type", "an integrator's name");
-  if (object.choice("type", {SymplecticEulerDescription::kName}) < 0) {
-    object.ignore_rest();
-    return euler;
-  }
-  const json* substeps = object.find("substeps");
-  if (substeps && *substeps != "auto") {
-    if (substeps->is_string()) {
-      report.refuse(*substeps, object.path("substeps"), "\"auto\" or an integer " + kSubsteps.text());
-    } else {
-      object.integer("substeps", euler.substeps, kSubsteps);
+  switch (object.choice("type", {SymplecticEulerDescription::kName, XpbdDescription::kName})) {
+    case 0:
+      return read_symplectic_euler(object);
+    case 1: {
+      XpbdDescription xpbd;
+      object.integer("substeps", xpbd.substeps, kSubsteps);
+      return xpbd;
     }
+    default:
+      object.ignore_rest();
+      return {};
   }
-  object.number("safety", euler.safety, kSafety);
-  return euler;
 }
 
 LevelPolicy read_level_policy(const json& value, const std::string& path, Report& report) {

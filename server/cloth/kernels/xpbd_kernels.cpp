@@ -41,32 +41,57 @@ template <class Real>
   }
 }
 
+/// Springs within a row: two quarters of the columns begin a spring of the first colour, two one of the
+/// second.
 template <class Real>
-[[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
-                                               Real* sheet) {
+[[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
+                                                       const XpbdSprings<Real>& springs, Real* sheet) {
+  const auto stride = static_cast<std::size_t>(layout.stride);
+  for (int r = 0; r < layout.rows; ++r) {
+    Real* row = sheet + static_cast<std::size_t>(r) * layout.row_size();
+    const Real share = r == 0 || r == layout.rows - 1 ? springs.border_row_share : Real(1);
+    for (int i = 0; i < 4; ++i) {
+      const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
+      const int left = layout.lane(col), right = layout.lane(col + springs.cols);
+      project_run(row + left, row + right, springs.stiffness + left, share, springs.rest_length, stride,
+                  layout.width);
+    }
+  }
+}
+
+/// Springs between rows: a row begins springs of one colour, the row at their other end of the other.
+template <class Real>
+[[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
+                                                        const XpbdSprings<Real>& springs, Real* sheet) {
   const auto stride = static_cast<std::size_t>(layout.stride);
   const int across = springs.cols < 0 ? -springs.cols : springs.cols;
   for (int colour = 0; colour < 2; ++colour) {
     for (int r = 0; r + springs.rows < layout.rows; ++r) {
-      // Springs between rows alternate from row to row, those within a row from column to column.
-      if (springs.rows > 0 && r / springs.rows % 2 != colour) continue;
+      if (r / springs.rows % 2 != colour) continue;
       Real* left = sheet + static_cast<std::size_t>(r) * layout.row_size();
       Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
       if (springs.cols < 0) std::swap(left, right);
-      const bool in_border_row = springs.rows == 0 && (r == 0 || r == layout.rows - 1);
-      const Real share = in_border_row ? springs.border_row_share : Real(1);
       if (across == 0) {
-        project_run(left, right, springs.stiffness, share, springs.rest_length, stride,
+        project_run(left, right, springs.stiffness, Real(1), springs.rest_length, stride,
                     round_up(4 * layout.width + 1, kGroup));
-        continue;
-      }
-      for (int col = 0; col < 4; ++col) {
-        if (springs.rows == 0 && col / across % 2 != colour) continue;
-        const int from = layout.lane(col), to = layout.lane(col + across);
-        project_run(left + from, right + to, springs.stiffness + from, share, springs.rest_length, stride,
-                    layout.width);
+      } else {
+        for (int col = 0; col < 4; ++col) {
+          const int from = layout.lane(col), to = layout.lane(col + across);
+          project_run(left + from, right + to, springs.stiffness + from, Real(1), springs.rest_length, stride,
+                      layout.width);
+        }
       }
     }
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
+                                               Real* sheet) {
+  if (springs.rows == 0) {
+    project_within_rows(layout, springs, sheet);
+  } else {
+    project_between_rows(layout, springs, sheet);
   }
 }
 

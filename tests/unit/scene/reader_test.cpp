@@ -131,6 +131,11 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_EQ(simulation.seed, 9007199254740991u);
 }
 
+TEST(Reader, XpbdFields) {
+  const Scene scene = read_good("xpbd");
+  EXPECT_EQ(std::get<XpbdDescription>(scene.simulation.integrator).substeps, 10000);
+}
+
 TEST(Reader, ExtremesAreAllowed) {
   const Scene scene = read_good("extremes");
   ASSERT_EQ(scene.simulation.cloths.size(), 3u);
