@@ -7,13 +7,15 @@ namespace weft {
 /// Extended position-based dynamics with small steps (Macklin, Mueller, Chentanez 2016, "XPBD"; Macklin et
 /// al. 2019, "Small steps in physics simulation"). Each substep moves the nodes by Eq. 6 under the effects
 /// alone, then projects every spring once as a distance constraint of compliance 1/k, then takes the
-/// velocities from the positions; then section 2.4's collisions. Bounded for any stiffness and substep; what
-/// more substeps buy is accuracy: under a load F on a node of mass m a spring is left about F h^2 / m too
-/// long, so that a sheet of N cells hung by its edge is g dt^2 N^2 / (2 n^2) longer than it should be with n
-/// substeps.
+/// velocities from the positions; then section 2.4's collisions.
 ///
-/// The families are projected in a fixed order, stiffest last. Measured: a fixed order of any kind comes to
-/// rest, orders that alternate or are shuffled from substep to substep shake the cloth.
+/// Bounded for any stiffness and substep. What more substeps buy is accuracy: a spring that carries a load F
+/// between nodes of masses m_i, m_j is left up to F h^2 (1/m_i + 1/m_j) longer than F/k says. Over the N
+/// cells of a sheet hung by its edge that adds up to about g h^2 N^2 / 2.
+///
+/// The families are projected in a fixed order, structural springs last. Measured: fixed orders all come to
+/// rest and differ little; orders that alternate or are shuffled from substep to substep shake the cloth for
+/// ever, and so do corrections 1.2 times as large.
 template <class Real>
 class Xpbd final : public Integrator<Real> {
  public:

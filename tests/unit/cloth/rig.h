@@ -35,6 +35,24 @@ struct Rig {
   }
 };
 
+/// A square sheet of 2 m in the x-y plane, 0.4 kg, shared as the continuum has it.
+template <class Real>
+Rig<Real> sheet_rig(int rows, int cols, const IntegratorDescription& stepping,
+                    const std::vector<EffectDescription>& effects = {}, const Material& material = {}) {
+  Particles<Real> sheet = flat_sheet<Real>(rows, cols, {2, 2});
+  share_mass(sheet, 0.4, Discretization::continuum);
+  return {std::move(sheet), {2, 2}, material, Discretization::continuum, effects, stepping};
+}
+
+/// The same, held by its upper corners.
+template <class Real>
+Rig<Real> hung_rig(int rows, int cols, const IntegratorDescription& stepping,
+                   const std::vector<EffectDescription>& effects = {}, const Material& material = {}) {
+  Rig<Real> rig = sheet_rig<Real>(rows, cols, stepping, effects, material);
+  for (int c : {0, cols - 1}) rig.particles.inverse_mass.at(0, c) = 0;
+  return rig;
+}
+
 inline Material without_springs() {
   Material material;
   material.structural = material.shear = material.bending = 0;

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
 #include "rig.h"
 
 namespace weft {
@@ -16,30 +15,14 @@ namespace {
 
 using test::each_node;
 using test::get;
+using test::hung_rig;
 using test::ListedSpring;
 using test::Rig;
 using test::set;
+using test::sheet_rig;
 using test::without_springs;
 
 constexpr double kFrame = 1.0 / 60.0;
-
-/// A sheet in the x-y plane, 0.4 kg, default material unless said.
-template <class Real>
-Rig<Real> sheet_rig(int rows, int cols, int substeps, const std::vector<EffectDescription>& effects = {},
-                    const Material& material = {}) {
-  Particles<Real> sheet = test::flat_sheet<Real>(rows, cols, {2, 2});
-  test::share_mass(sheet, 0.4, Discretization::continuum);
-  return {std::move(sheet), {2, 2}, material, Discretization::continuum, effects, XpbdDescription{substeps}};
-}
-
-/// The same, held by its upper corners.
-template <class Real>
-Rig<Real> hung_rig(int rows, int cols, int substeps, const std::vector<EffectDescription>& effects,
-                   const Material& material = {}) {
-  Rig<Real> rig = sheet_rig<Real>(rows, cols, substeps, effects, material);
-  for (int c : {0, cols - 1}) rig.particles.inverse_mass.at(0, c) = 0;
-  return rig;
-}
 
 // --- The sweep ---
 
@@ -67,7 +50,7 @@ TEST(XpbdSweep, IsThatOfAPlainLoopOverColouredSprings) {
   const double h = 0.01;
   for (const auto& [rows, cols] : std::vector<std::pair<int, int>>{
            {2, 2}, {2, 3}, {3, 2}, {5, 4}, {4, 5}, {5, 7}, {9, 9}, {7, 10}, {10, 11}, {17, 12}, {33, 66}}) {
-    Rig<double> rig = hung_rig<double>(rows, cols, 1, {});
+    Rig<double> rig = hung_rig<double>(rows, cols, XpbdDescription{1}, {});
     test::randomise(rig.particles.position, -1, 1, 5);
     Particles<double> plain = rig.particles;
     const auto& families = rig.springs.families();
@@ -145,7 +128,7 @@ TYPED_TEST(XpbdFreeFall, FallsAsEquation6SaysWithItsSpringsAtRest) {
   // T1 with 20 substeps: y = -g h^2 n (n + 1) / 2, n = 1200, h = 1/1200 s: -4.9090875 m. A float position
   // rounds to 4.8e-7 m near 5 m; the springs take that for strain, and a node's velocity follows: one such
   // step is 0.7 m/s2, its neighbours' come on top. Over 60 steps that adds up to 1e-4 m.
-  Rig<TypeParam> rig = sheet_rig<TypeParam>(17, 17, 20, {GravityEffect{}});
+  Rig<TypeParam> rig = sheet_rig<TypeParam>(17, 17, XpbdDescription{20}, {GravityEffect{}});
   const Particles<TypeParam> start = rig.particles;
   for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
   constexpr bool kSingle = std::is_same_v<TypeParam, float>;
@@ -163,7 +146,7 @@ TEST(XpbdFreeCloth, KeepsLinearMomentumToRoundingAndAngularMomentumToFirstOrder)
   // worst. The impulses act along the springs as they are after the prediction, not as they were at the
   // substep's start: angular momentum is off by O(h), as in backward Euler.
   const auto errors = [](int substeps) {
-    Rig<double> rig = sheet_rig<double>(17, 17, substeps);
+    Rig<double> rig = sheet_rig<double>(17, 17, XpbdDescription{substeps});
     test::randomise(rig.particles.velocity, -0.3, 0.3, 4);
     const Vec3 momentum = linear_momentum(rig.particles), spin = angular_momentum(rig.particles);
     rig.advance(0, kFrame);
@@ -180,7 +163,7 @@ TEST(XpbdDamping, DragFasterThanTheSubstepStopsAtTheTerminalVelocity) {
   // Rate 100/s, h = 0.1 s: an explicit step would swing nine times as far to the other side. v = g / rate.
   Material material = without_springs();
   material.damping = 10;  // over 0.1 kg/m2
-  Rig<double> rig = sheet_rig<double>(9, 9, 1, {GravityEffect{}, DampingEffect{}}, material);
+  Rig<double> rig = sheet_rig<double>(9, 9, XpbdDescription{1}, {GravityEffect{}, DampingEffect{}}, material);
   rig.particles.velocity.x.fill(50);
   for (int step = 0; step < 3; ++step) {
     rig.advance(step * 0.1, 0.1);
@@ -193,9 +176,10 @@ TEST(XpbdDamping, DragFasterThanTheSubstepStopsAtTheTerminalVelocity) {
 /// How much longer than 2 m the hung sheet of 16 cells is once at rest.
 double hung_stretch(int substeps, Material material) {
   material.damping = 0.5;
-  Rig<double> rig = sheet_rig<double>(17, 5, substeps, {GravityEffect{}, DampingEffect{}}, material);
+  Rig<double> rig =
+      sheet_rig<double>(17, 5, XpbdDescription{substeps}, {GravityEffect{}, DampingEffect{}}, material);
   for (int c = 0; c < 5; ++c) rig.particles.inverse_mass.at(0, c) = 0;
-  for (int step = 0; step < 1200; ++step) rig.advance(step * kFrame, kFrame);
+  for (int step = 0; step < 400; ++step) rig.advance(step * kFrame, kFrame);
   EXPECT_LT(kinetic_energy(rig.particles), 1e-16);
   return rig.particles.position_at(0, 2).y() - rig.particles.position_at(16, 2).y() - 2;
 }
@@ -223,165 +207,6 @@ TEST(XpbdHungSheet, ApproachesTheSpringsOwnStretch) {
   EXPECT_LT(limit, 3.924e-4);
   EXPECT_GT(limit, 0.8 * 3.924e-4);
   EXPECT_NEAR(finest - (fine - finest) / 3, limit, 0.01 * limit);
-}
-
-// --- Stability ---
-
-/// Puts the nodes in some hopeless state.
-enum class Start { random, point, line, folded };
-
-void scramble(Start start, Particles<float>& particles) {
-  if (start == Start::random) return test::randomise(particles.position, -1, 1, 7);
-  each_node(particles.grid(), [&](int r, int c) {
-    const Vec3 at = particles.position_at(r, c);
-    if (start == Start::point) set(particles.position, r, c, {0, 0, 0});
-    if (start == Start::line) set(particles.position, r, c, {at.x(), 0, 0});
-    if (start == Start::folded && r % 2 == 1) set(particles.position, r, c, {-at.x(), at.y(), at.z()});
-  });
-}
-
-TEST(XpbdStability, NoStiffnessSubstepOrStartBlowsUp) {
-  // Hung by two corners, 5 s. No node gets farther than the start (1.7 m from the middle), the sheet's
-  // diagonal (2.8 m), for the softest as much again for its weight, and what the substep adds along N cells,
-  // g h^2 N^2 / 2, twice for the fall that leads there.
-  for (const double stiffness : {1e-1, 5e3, 1e7}) {
-    for (const Start start : {Start::random, Start::point, Start::line, Start::folded}) {
-      for (const auto& [substeps, dt] :
-           std::vector<std::pair<int, double>>{{1, kFrame}, {20, kFrame}, {1, 1.0}}) {
-        Material material;
-        material.structural = stiffness;
-        Rig<float> rig = hung_rig<float>(17, 17, substeps, {GravityEffect{}}, material);
-        scramble(start, rig.particles);
-        const double h = dt / substeps;
-        const double reach = 5 + 2 * 9.81 * h * h * 16 * 16 + (stiffness < 1 ? 3 : 0);
-        double farthest = 0;
-        for (double time = 0; time < 5; time += dt) {
-          rig.advance(time, dt);
-          each_node(rig.particles.grid(), [&](int r, int c) {
-            farthest = std::max(farthest, rig.particles.position_at(r, c).norm());
-          });
-        }
-        EXPECT_TRUE(is_finite(rig.particles)) << stiffness << " N/m, start " << int(start) << ", h = " << h;
-        EXPECT_LT(farthest, reach) << stiffness << " N/m, start " << int(start) << ", h = " << h;
-      }
-    }
-  }
-}
-
-TEST(XpbdStability, ComesToRest) {
-  // The sweep is what decides it: orders that change between substeps, or springs corrected by more than
-  // their share, leave metres a second. Shaken by 1 m/s at the start and damped at 2/s, e^-16 of that is left
-  // after 8 s but for the slow sway of folds, which the drag all but stops: under 1 mm/s.
-  for (const double stiffness : {50.0, 5e3, 1e7}) {
-    Material material;
-    material.structural = stiffness;
-    material.damping = 0.2;
-    Rig<double> rig = hung_rig<double>(17, 17, 10, {GravityEffect{}, DampingEffect{}}, material);
-    test::randomise(rig.particles.velocity, -1, 1, 3);
-    for (int c : {0, 16}) set(rig.particles.velocity, 0, c, {0, 0, 0});
-    for (int step = 0; step < 480; ++step) rig.advance(step * kFrame, kFrame);
-    EXPECT_LT(std::sqrt(2 * kinetic_energy(rig.particles) / 0.4), 1e-3) << stiffness;
-  }
-}
-
-// --- What it must not depend on ---
-
-TEST(XpbdPrecision, FloatFollowsDouble) {
-  Rig<float> single = hung_rig<float>(17, 17, 20, {GravityEffect{}, DampingEffect{}});
-  Rig<double> twice = hung_rig<double>(17, 17, 20, {GravityEffect{}, DampingEffect{}});
-  for (int step = 0; step < 60; ++step) {
-    single.advance(step * kFrame, kFrame);
-    twice.advance(step * kFrame, kFrame);
-  }
-  // 1200 substeps, each rounding positions by 6e-8 m: 7e-5 m if every rounding went one way.
-  EXPECT_LT(test::largest_difference(single.particles.position, twice.particles.position), 5e-5);
-}
-
-TEST(XpbdSymmetry, MirrorImagesDifferOnlyByTheSweepsOrder) {
-  // Left and right hand are projected one after the other. What that leaves falls like the sweep's other
-  // error, with the square of the substep: 16 times between 10 and 40.
-  const auto asymmetry = [](int substeps) {
-    Rig<double> rig = hung_rig<double>(17, 17, substeps, {GravityEffect{}, DampingEffect{}});
-    for (int step = 0; step < 30; ++step) rig.advance(step * kFrame, kFrame);
-    double largest = 0;
-    each_node(rig.particles.grid(), [&](int r, int c) {
-      const Vec3 left = rig.particles.position_at(r, c), right = rig.particles.position_at(r, 16 - c);
-      largest = std::max(largest, (left - Vec3(-right.x(), right.y(), right.z())).norm());
-    });
-    return largest;
-  };
-  const double coarse = asymmetry(10), fine = asymmetry(40);
-  EXPECT_LT(coarse, 0.005);
-  EXPECT_LT(fine, coarse / 8);
-}
-
-TEST(XpbdHeldNodes, StayWhateverPulls) {
-  Rig<float> rig = hung_rig<float>(9, 9, 5, {GravityEffect{}});
-  const Particles<float> start = rig.particles;
-  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
-  for (int c : {0, 8}) {
-    EXPECT_EQ(rig.particles.position_at(0, c), start.position_at(0, c));
-    EXPECT_EQ(rig.particles.velocity_at(0, c), Vec3(0, 0, 0));
-    EXPECT_EQ(get(rig.particles.acceleration, 0, c), Vec3(0, 0, 0));
-  }
-  EXPECT_LT(rig.particles.position_at(8, 4).y(), start.position_at(8, 4).y());
-}
-
-TEST(XpbdRun, TwiceGivesTheSameBitsAcrossLevels) {
-  const auto run = [] {
-    SimulationDescription scene;
-    ClothDescription cloth;
-    cloth.min_level = 3;
-    cloth.initial_level = 4;
-    cloth.base_cells = {2, 1};
-    cloth.pins = {{0, 0, 0, 1}};
-    scene.cloths = {cloth};
-    scene.effects = {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}};
-    scene.wind = {{0, 0, -1}, 4.0};
-    scene.integrator = XpbdDescription{};
-    Simulation<float> simulation(scene);
-    for (int frame = 0; frame < 60; ++frame) {
-      if (frame % 20 == 10) simulation.request_level(0, frame == 30 ? 5 : 3);
-      simulation.step();
-    }
-    return simulation.cloths()[0].particles();
-  };
-  const Particles<float> once = run();
-  EXPECT_TRUE(is_finite(once));
-  EXPECT_TRUE(test::same_state(once, run()));
-}
-
-// --- Contact ---
-
-TEST(XpbdContact, NoNodeIsLeftInsideABall) {
-  // A free sheet falls onto a ball, and a ball at 30 m/s flies into it: resolved at the end of every substep.
-  SimulationDescription scene;
-  ClothDescription cloth;
-  cloth.min_level = cloth.max_level = cloth.initial_level = 5;
-  cloth.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
-  scene.cloths = {cloth};
-  BallDescription resting, flying;
-  resting.position = {0, -0.35, 0};
-  resting.radius = 0.3;
-  flying.position = {-0.5, 10, 0.4};
-  flying.velocity = {0, -30, 0};
-  scene.balls = {resting, flying};
-  scene.effects = {GravityEffect{}, DampingEffect{}};
-  scene.integrator = XpbdDescription{};
-  Simulation<float> simulation(scene);
-  std::uint64_t touched = 0;
-  for (int frame = 0; frame < 60; ++frame) {
-    simulation.step();
-    const auto& particles = simulation.cloths()[0].particles();
-    ASSERT_TRUE(is_finite(particles));
-    each_node(particles.grid(), [&](int r, int c) {
-      for (const Ball& ball : simulation.colliders().balls()) {
-        ASSERT_GE((particles.position_at(r, c) - ball.position).norm(), ball.radius) << frame;
-      }
-    });
-    touched = simulation.cloths()[0].contact_counters().nodes_in_contact;
-  }
-  EXPECT_GT(touched, 1000u);
 }
 
 }  // namespace
