@@ -28,10 +28,42 @@ std::vector<Waypoint> read_path(Object& ball) {
   return path;
 }
 
+constexpr Range kSubsteps{1, 10000};
+
+SymplecticEulerDescription read_symplectic_euler(Object& object) {
+  constexpr Range kSafety{0.01, 1};
+  SymplecticEulerDescription euler;
+  const json* substeps = object.find("substeps");
+  if (substeps && *substeps != "auto") {
+    if (substeps->is_string()) {
+      object.report().refuse(*substeps, object.path("substeps"),
+                             "\"auto\" or an integer " + kSubsteps.text());
+    } else {
+      object.integer("substeps", euler.substeps, kSubsteps);
+    }
+  }
+  object.number("safety", euler.safety, kSafety);
+  return euler;
+}
+
+template <class Description>
+Description read_implicit(Object& object) {
+  constexpr Range kTolerance{1e-12, 1};
+  constexpr Range kNewtonIterations{1, 100};
+  constexpr Range kLinearIterations{1, 10000};
+  Description implicit;
+  object.integer("substeps", implicit.substeps, kSubsteps);
+  object.number("tolerance", implicit.tolerance, kTolerance);
+  object.integer("newton_iterations", implicit.newton_iterations, kNewtonIterations);
+  object.integer("linear_iterations", implicit.linear_iterations, kLinearIterations);
+  return implicit;
+}
+
 }  // namespace
 
 std::optional<BallDescription> read_collider(const json& value, const std::string& path, Report& report) {
   constexpr Range kMass{1e-6, 1e6, "kg"};
+  constexpr Range kFriction{0, 10};
   Object object(value, path, report);
   object.require("type", "\"ball\"");
   if (object.choice("type", {"ball"}) < 0) {
@@ -43,6 +75,7 @@ std::optional<BallDescription> read_collider(const json& value, const std::strin
   object.number("radius", ball.radius, kLength);
   if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
   object.number("mass", ball.mass, kMass);
+  object.number("friction", ball.friction, kFriction);
   if (object.has("path")) {
     if (ball.motion == BallDescription::Motion::dynamic) {
       object.problem("path", "is given for a dynamic ball; only kinematic balls follow a path");
@@ -102,25 +135,25 @@ Wind read_wind(const json& value, const std::string& path, Report& report) {
 }
 
 IntegratorDescription read_integrator(const json& value, const std::string& path, Report& report) {
-  constexpr Range kSubsteps{1, 10000};
-  constexpr Range kSafety{0.01, 1};
-  SymplecticEulerDescription euler;
   Object object(value, path, report);
   object.require("type", "an integrator's name");
-  if (object.choice("type", {SymplecticEulerDescription::kName}) < 0) {
-    object.ignore_rest();
-    return euler;
-  }
-  const json* substeps = object.find("substeps");
-  if (substeps && *substeps != "auto") {
-    if (substeps->is_string()) {
-      report.refuse(*substeps, object.path("substeps"), "\"auto\" or an integer " + kSubsteps.text());
-    } else {
-      object.integer("substeps", euler.substeps, kSubsteps);
+  switch (object.choice("type", {SymplecticEulerDescription::kName, BackwardEulerDescription::kName,
+                                 Bdf2Description::kName, XpbdDescription::kName})) {
+    case 0:
+      return read_symplectic_euler(object);
+    case 1:
+      return read_implicit<BackwardEulerDescription>(object);
+    case 2:
+      return read_implicit<Bdf2Description>(object);
+    case 3: {
+      XpbdDescription xpbd;
+      object.integer("substeps", xpbd.substeps, kSubsteps);
+      return xpbd;
     }
+    default:
+      object.ignore_rest();
+      return {};
   }
-  object.number("safety", euler.safety, kSafety);
-  return euler;
 }
 
 LevelPolicy read_level_policy(const json& value, const std::string& path, Report& report) {

@@ -3,6 +3,7 @@
 
 #include "cloth/contact/ball_contact.h"
 #include "cloth/diagnostics.h"
+#include "cloth/integrators/integrator.h"
 #include "cloth/refine.h"
 #include "cloth/springs.h"
 
@@ -43,6 +44,24 @@ void spring_forces(benchmark::State& state) {
   count_nodes(state, sheet.grid());
 }
 BENCHMARK(spring_forces)->DenseRange(kMinLevel, kMaxLevel);
+
+/// A step of 40 substeps under gravity: items are nodes of a substep, each has six springs.
+void xpbd_step(benchmark::State& state) {
+  constexpr int kSubsteps = 40;
+  Particles<Real> sheet = wavy_sheet(static_cast<int>(state.range(0)));
+  const Springs<Real> springs(Material{}, Discretization::paper, {2, 2}, sheet.grid());
+  const auto effects = make_effects<Real>({GravityEffect{}});
+  const ClothDescription cloth;
+  const Wind wind;
+  std::vector<Ball> balls;
+  const auto xpbd = make_integrator<Real>(XpbdDescription{kSubsteps});
+  for (auto _ : state) {
+    xpbd->advance(sheet, {&springs, &effects, {&cloth, &wind, 0.0}}, nullptr, balls, 0.0, 1e-4);
+    benchmark::DoNotOptimize(sheet.position.x.row(0));
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * kSubsteps * sheet.grid().nodes());
+}
+BENCHMARK(xpbd_step)->DenseRange(kMinLevel, kMaxLevel);
 
 void finite_check(benchmark::State& state) {
   const Particles<Real> sheet = wavy_sheet(static_cast<int>(state.range(0)));

@@ -2,11 +2,12 @@
 
 #include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/integrators/xpbd.h"
 
 namespace weft {
 namespace {
 
-/// Which class does which description.
+/// Which class follows which description.
 template <class Real>
 struct Maker {
   using Made = std::unique_ptr<Integrator<Real>>;
@@ -19,6 +20,7 @@ struct Maker {
   Made operator()(const Bdf2Description& d) const {
     return std::make_unique<Implicit<Real>>(d.kName, d, true);
   }
+  Made operator()(const XpbdDescription& d) const { return std::make_unique<Xpbd<Real>>(d); }
 };
 
 }  // namespace
@@ -28,6 +30,19 @@ void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& forc
   force.fill(Real(0));
   springs->add_forces(particles.position, force);
   for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const {
+  force.fill(Real(0));
+  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+double Forces<Real>::max_damping_rate(const Particles<Real>& particles) const {
+  double sum = 0;
+  for (const auto& effect : *effects) sum += effect->max_damping_rate(particles, context);
+  return sum;
 }
 
 template <class Real>

@@ -16,6 +16,10 @@ struct Forces {
 
   /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N.
   void sum(const Particles<Real>& particles, VectorField<Real>& force) const;
+  /// The scene's effects alone; `force` is overwritten, N.
+  void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
+  /// Bound on the damping rate of all effects together, 1/s (Effect::max_damping_rate).
+  double max_damping_rate(const Particles<Real>& particles) const;
 };
 
 /// What one advance did.

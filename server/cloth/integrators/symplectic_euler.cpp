@@ -13,13 +13,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-template <class Real>
-double damping_rate(const Forces<Real>& forces, const Particles<Real>& particles) {
-  double sum = 0;
-  for (const auto& effect : *forces.effects) sum += effect->max_damping_rate(particles, forces.context);
-  return sum;
-}
-
 /// Eq. 6.
 template <class Real>
 void update(Particles<Real>& particles, const VectorField<Real>& force, double h) {
@@ -56,7 +49,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
   const double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
-  const double rate = damping_rate(forces, particles);
+  const double rate = forces.max_damping_rate(particles);
   report.substeps = description_.substeps > 0
                         ? description_.substeps
                         : stable_substeps(squared_frequency, rate, dt, description_.safety);

@@ -8,49 +8,16 @@
 #include <numbers>
 
 #include "cloth/diagnostics.h"
-#include "fixtures.h"
+#include "rig.h"
 
 namespace weft {
 namespace {
 
 using test::each_node;
-using test::get;
-using test::set;
+using test::Rig;
+using test::without_springs;
 
 constexpr double kFrame = 1.0 / 60.0;
-
-/// A sheet, its springs and effects, stepped by the integrator alone.
-template <class Real>
-struct Rig {
-  ClothDescription cloth;
-  Wind wind;
-  std::vector<Ball> balls;
-  Particles<Real> particles;
-  Springs<Real> springs;
-  std::vector<std::unique_ptr<Effect<Real>>> effects;
-  std::unique_ptr<Integrator<Real>> integrator;
-
-  Rig(Particles<Real> sheet, const Vec2& size, const Material& material, Discretization discretization,
-      const std::vector<EffectDescription>& listed, const SymplecticEulerDescription& stepping)
-      : particles(std::move(sheet)),
-        springs(material, discretization, size, particles.grid()),
-        effects(make_effects<Real>(listed)),
-        integrator(make_integrator<Real>(stepping)) {
-    cloth.size = size;
-    cloth.material = material;
-    cloth.discretization = discretization;
-  }
-  AdvanceReport advance(double time, double dt) {
-    return integrator->advance(particles, {&springs, &effects, {&cloth, &wind, time}}, nullptr, balls, time,
-                               dt);
-  }
-};
-
-Material without_springs() {
-  Material material;
-  material.structural = material.shear = material.bending = 0;
-  return material;
-}
 
 /// Node (r, 1) of 2 x 3 nodes 1 m apart is free to swing along x between two held ones, on springs of k each:
 /// m = 1 kg, w^2 = 2k. Both rows move alike, so the cross springs stay at rest.
@@ -61,7 +28,8 @@ Rig<double> oscillator(double k, int substeps) {
   }
   Material material = without_springs();
   material.structural = k;
-  return {std::move(sheet), {2, 1}, material, Discretization::paper, {}, {substeps, 0.9}};
+  return {std::move(sheet),      {2, 1}, material,
+          Discretization::paper, {},     SymplecticEulerDescription{substeps, 0.9}};
 }
 
 // --- Eq. 6, one substep by hand ---
@@ -123,7 +91,7 @@ TYPED_TEST(FreeFall, OneSecondFallsByTheSumOfTheSteps) {
   test::share_mass(sheet, 0.4, Discretization::continuum);
   const Particles<TypeParam> start = sheet;
   Rig<TypeParam> rig(std::move(sheet), {2, 2}, without_springs(), Discretization::continuum,
-                     {GravityEffect{}}, {1, 0.9});
+                     {GravityEffect{}}, SymplecticEulerDescription{1, 0.9});
   for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
   const double tolerance = std::is_same_v<TypeParam, float> ? 2e-5 : 1e-12;
   each_node(start.grid(), [&](int r, int c) {
@@ -142,7 +110,7 @@ TEST(DampedFall, FollowsTheStepsOwnLawAndThePapersLimit) {
   Material material = without_springs();
   material.damping = 0.01;
   Rig<double> rig(std::move(sheet), {2, 2}, material, Discretization::paper,
-                  {GravityEffect{}, DampingEffect{}}, {1, 0.9});
+                  {GravityEffect{}, DampingEffect{}}, SymplecticEulerDescription{1, 0.9});
   const double rate = 0.01 * 81 / 0.4, limit = 9.81 / rate;
   for (int step = 0; step < 600; ++step) {
     rig.advance(step * kFrame, kFrame);
@@ -161,7 +129,7 @@ TEST(DampedFall, ApproachesTheExponentialAsTheSubstepShrinks) {
     Material material = without_springs();
     material.damping = 0.01;
     Rig<double> rig(std::move(sheet), {2, 2}, material, Discretization::paper,
-                    {GravityEffect{}, DampingEffect{}}, {substeps, 0.9});
+                    {GravityEffect{}, DampingEffect{}}, SymplecticEulerDescription{substeps, 0.9});
     for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
     return std::abs(rig.particles.velocity_at(4, 4).y() - exact);
   };
@@ -240,7 +208,8 @@ double largest_energy(int substeps, int steps, int* used) {
   test::share_mass(sheet, 0.4, Discretization::continuum);
   sheet.inverse_mass.at(0, 0) = sheet.inverse_mass.at(0, 16) = 0;
   Rig<float> rig(std::move(sheet), {2, 2}, Material{}, Discretization::continuum,
-                 {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}}, {substeps, 0.9});
+                 {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}},
+                 SymplecticEulerDescription{substeps, 0.9});
   rig.wind = {{0, 0, -1}, 3.0};
   double largest = 0;
   for (int step = 0; step < steps; ++step) {
@@ -276,7 +245,8 @@ TEST(ChainInTime, SwingsAtItsFirstFrequency) {
             [&](int r, int c) { chain.position.x.at(r, c) += 1e-3 * std::sin(c * std::numbers::pi / 65); });
   Material material = without_springs();
   material.structural = 1000;
-  Rig<double> rig(std::move(chain), {65, 1}, material, Discretization::paper, {}, {1, 0.9});
+  Rig<double> rig(std::move(chain), {65, 1}, material, Discretization::paper, {},
+                  SymplecticEulerDescription{1, 0.9});
   const double dt = 1e-4, home = -32.5 + 32;
   std::vector<double> crossings;
   double before = rig.particles.position.x.at(0, 32) - home;
@@ -300,7 +270,7 @@ TEST(FreeCloth, KeepsLinearAndAngularMomentum) {
     test::share_mass(sheet, 0.4, d);
     test::randomise(sheet.velocity, -3, 3, 4);
     const Vec3 momentum = linear_momentum(sheet), spin = angular_momentum(sheet);
-    Rig<double> rig(std::move(sheet), {2, 2}, Material{}, d, {}, {100, 0.9});
+    Rig<double> rig(std::move(sheet), {2, 2}, Material{}, d, {}, SymplecticEulerDescription{100, 0.9});
     rig.advance(0, kFrame);
     EXPECT_GT(test::largest_difference(rig.particles.velocity, VectorField<double>(rig.particles.grid())),
               0.5);

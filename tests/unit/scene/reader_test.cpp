@@ -131,6 +131,20 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_EQ(simulation.seed, 9007199254740991u);
 }
 
+TEST(Reader, XpbdFields) {
+  const Scene scene = read_good("xpbd");
+  EXPECT_EQ(std::get<XpbdDescription>(scene.simulation.integrator).substeps, 10000);
+}
+
+TEST(Reader, ImplicitFields) {
+  const Scene scene = read_good("implicit");
+  const auto& bdf2 = std::get<Bdf2Description>(scene.simulation.integrator);
+  EXPECT_EQ(bdf2.substeps, 3);
+  EXPECT_EQ(bdf2.tolerance, 0.001);
+  EXPECT_EQ(bdf2.newton_iterations, 2);
+  EXPECT_EQ(bdf2.linear_iterations, 200);
+}
+
 TEST(Reader, ExtremesAreAllowed) {
   const Scene scene = read_good("extremes");
   ASSERT_EQ(scene.simulation.cloths.size(), 3u);

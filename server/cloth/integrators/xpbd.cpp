@@ -1,0 +1,105 @@
+#include "cloth/integrators/xpbd.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace weft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+/// From the velocities before the substep, which the accelerations hold, to the mean over the substep.
+template <class Real>
+void make_acceleration(Particles<Real>& particles, double h) {
+  const Real rate = static_cast<Real>(1 / h);
+  const auto make = [rate](const Field<Real>& velocity, Field<Real>& acceleration) {
+    std::transform(velocity.values().begin(), velocity.values().end(), acceleration.values().begin(),
+                   acceleration.values().begin(),
+                   [rate](Real after, Real before) { return (after - before) * rate; });
+  };
+  make(particles.velocity.x, particles.acceleration.x);
+  make(particles.velocity.y, particles.acceleration.y);
+  make(particles.velocity.z, particles.acceleration.z);
+}
+
+}  // namespace
+
+template <class Real>
+AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
+                                  std::vector<Ball>& balls, double time, double dt) {
+  AdvanceReport report;
+  report.substeps = description_.substeps;
+  const double h = dt / report.substeps;
+  prepare(particles, forces.springs->families(), h);
+  // Explicit drag reverses velocities where its rate exceeds 1/h: forces are then scaled so that it stops
+  // them at most, which leaves every terminal velocity as it is.
+  const double rate = forces.max_damping_rate(particles);
+  const double force_share = rate * h > 1 ? 1 / (rate * h) : 1;
+  forces.context.damping_limit = std::max(rate, 1 / h);
+  for (int s = 0; s < report.substeps; ++s) {
+    const auto begin = Clock::now();
+    forces.context.time = time + s * h;
+    const bool last = s + 1 == report.substeps;
+    if (last) particles.acceleration = particles.velocity;
+    substep(particles, forces, force_share, h);
+    if (last) make_acceleration(particles, h);
+    const auto moved = Clock::now();
+    report.forces_seconds += seconds(moved - begin);
+    if (contact == nullptr) continue;
+    report.nodes_in_contact = contact->resolve(particles, balls, static_cast<double>(s) / report.substeps,
+                                               static_cast<double>(s + 1) / report.substeps);
+    report.contact_seconds += seconds(Clock::now() - moved);
+  }
+  return report;
+}
+
+template <class Real>
+void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<SpringFamily>& families,
+                         double h) {
+  const Grid& grid = particles.grid();
+  if (force_.grid() != grid) {
+    force_ = VectorField<Real>(grid);
+    layout_ = kernels::QuarterRows(grid);
+    sheet_.assign(layout_.size(), Real(0));
+    row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
+  }
+  kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
+  const auto lanes = static_cast<std::size_t>(layout_.stride);
+  stiffness_.assign(families.size() * lanes, Real(0));
+  springs_.clear();
+  // Bending, shear, structural: the stiffest have the last word.
+  for (auto family = families.rbegin(); family != families.rend(); ++family) {
+    Real* stiffness = stiffness_.data() + springs_.size() * lanes;
+    for (int c = std::max(0, -family->cols); c + std::max(0, family->cols) < grid.cols; ++c) {
+      // Springs that lie in a border row are scaled by the kernel.
+      const bool in_border_column = family->cols == 0 && (c == 0 || c == grid.cols - 1);
+      const double share = in_border_column ? family->border_share : 1.0;
+      stiffness[layout_.lane(std::min(c, c + family->cols))] =
+          static_cast<Real>(share * family->stiffness * h * h);
+    }
+    springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
+                        static_cast<Real>(family->border_share), stiffness});
+  }
+}
+
+template <class Real>
+void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share,
+                         double h) {
+  const Grid& grid = particles.grid();
+  forces.sum_effects(particles, force_);
+  const kernels::XpbdNodes<Real> nodes{kernels::components(std::as_const(force_)),
+                                       particles.inverse_mass.row(0), kernels::components(particles.velocity),
+                                       kernels::components(particles.position)};
+  kernels::predict(layout_, grid, nodes, static_cast<Real>(force_share * h), static_cast<Real>(h),
+                   sheet_.data());
+  for (const auto& family : springs_) kernels::project(layout_, family, sheet_.data());
+  kernels::take_over(layout_, grid, sheet_.data(), static_cast<Real>(h), nodes, row_.data());
+}
+
+template class Xpbd<float>;
+template class Xpbd<double>;
+
+}  // namespace weft

@@ -1,0 +1,44 @@
+#pragma once
+#include "cloth/integrators/integrator.h"
+#include "cloth/kernels/xpbd_kernels.h"
+
+namespace weft {
+
+/// Extended position-based dynamics with small steps (Macklin, Mueller, Chentanez 2016, "XPBD"; Macklin et
+/// al. 2019, "Small steps in physics simulation"). Each substep moves the nodes by Eq. 6 under the effects
+/// alone, then projects every spring once as a distance constraint of compliance 1/k, then takes the
+/// velocities from the positions; then section 2.4's collisions.
+///
+/// Bounded for any stiffness and substep. What more substeps buy is accuracy: a spring that carries a load F
+/// between nodes of masses m_i, m_j is left up to F h^2 (1/m_i + 1/m_j) longer than F/k says. Over the N
+/// cells of a sheet hung by its edge that adds up to about g h^2 N^2 / 2.
+///
+/// The families are projected in a fixed order, structural springs last. Measured: fixed orders all come to
+/// rest and differ little; orders that alternate or are shuffled from substep to substep shake the cloth for
+/// ever, and so do corrections 1.2 times as large.
+template <class Real>
+class Xpbd final : public Integrator<Real> {
+ public:
+  explicit Xpbd(const XpbdDescription& description) : description_(description) {}
+  const char* name() const override { return XpbdDescription::kName; }
+  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
+                        std::vector<Ball>& balls, double time, double dt) override;
+
+ private:
+  /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
+  void prepare(const Particles<Real>& particles, const std::vector<SpringFamily>& families, double h);
+  void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
+
+  XpbdDescription description_;
+  VectorField<Real> force_;
+  kernels::QuarterRows layout_;
+  std::vector<Real, AlignedAllocator<Real>> sheet_;      ///< positions and inverse masses in that layout
+  std::vector<Real, AlignedAllocator<Real>> stiffness_;  ///< a row of lanes for each family
+  std::vector<Real, AlignedAllocator<Real>> row_;        ///< one row in the particles' own order
+  std::vector<kernels::XpbdSprings<Real>> springs_;
+};
+
+extern template class Xpbd<float>;
+extern template class Xpbd<double>;
+
+}  // namespace weft

@@ -1,0 +1,245 @@
+#include "cloth/kernels/xpbd_kernels.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cloth/multiversion.h"
+
+namespace weft::kernels {
+namespace {
+
+constexpr int kGroup = 8;
+
+constexpr int round_up(int n, int to) { return (n + to - 1) / to * to; }
+
+/// Projects the springs from lane a[i] to lane b[i], i < count; no lane is met twice.
+template <class Real>
+[[gnu::always_inline]] inline void project_run(Real* a, Real* b, const Real* __restrict stiffness, Real share,
+                                               Real rest_length, std::size_t stride, int count) {
+  Real *ax = a, *ay = a + stride, *az = a + 2 * stride;
+  Real *bx = b, *by = b + stride, *bz = b + 2 * stride;
+  const Real *wa = a + 3 * stride, *wb = b + 3 * stride;
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int i = 0; i < count; ++i) {
+    const Real xa = ax[i], ya = ay[i], za = az[i], ma = wa[i];
+    const Real xb = bx[i], yb = by[i], zb = bz[i], mb = wb[i];
+    const Real dx = xa - xb, dy = ya - yb, dz = za - zb;
+    // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
+    const Real smallest = std::numeric_limits<Real>::min();
+    const Real squared = dx * dx + dy * dy + dz * dz;
+    const Real length = std::sqrt(squared > smallest ? squared : smallest);
+    const Real k = share * stiffness[i];
+    const Real factor = k * (rest_length - length) / (length * (Real(1) + k * (ma + mb)));
+    const Real fa = factor * ma, fb = factor * mb;
+    ax[i] = xa + fa * dx;
+    ay[i] = ya + fa * dy;
+    az[i] = za + fa * dz;
+    bx[i] = xb - fb * dx;
+    by[i] = yb - fb * dy;
+    bz[i] = zb - fb * dz;
+  }
+}
+
+/// Springs within a row: two quarters of the columns begin a spring of the first colour, two one of the
+/// second.
+template <class Real>
+[[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
+                                                       const XpbdSprings<Real>& springs, Real* sheet) {
+  const auto stride = static_cast<std::size_t>(layout.stride);
+  for (int r = 0; r < layout.rows; ++r) {
+    Real* row = sheet + static_cast<std::size_t>(r) * layout.row_size();
+    const Real share = r == 0 || r == layout.rows - 1 ? springs.border_row_share : Real(1);
+    for (int i = 0; i < 4; ++i) {
+      const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
+      const int left = layout.lane(col), right = layout.lane(col + springs.cols);
+      project_run(row + left, row + right, springs.stiffness + left, share, springs.rest_length, stride,
+                  layout.width);
+    }
+  }
+}
+
+/// Springs between rows: a row begins springs of one colour, the row at their other end of the other.
+template <class Real>
+[[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
+                                                        const XpbdSprings<Real>& springs, Real* sheet) {
+  const auto stride = static_cast<std::size_t>(layout.stride);
+  const int across = springs.cols < 0 ? -springs.cols : springs.cols;
+  for (int colour = 0; colour < 2; ++colour) {
+    for (int r = 0; r + springs.rows < layout.rows; ++r) {
+      if (r / springs.rows % 2 != colour) continue;
+      Real* left = sheet + static_cast<std::size_t>(r) * layout.row_size();
+      Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
+      if (springs.cols < 0) std::swap(left, right);
+      if (across == 0) {
+        project_run(left, right, springs.stiffness, Real(1), springs.rest_length, stride,
+                    round_up(4 * layout.width + 1, kGroup));
+      } else {
+        for (int col = 0; col < 4; ++col) {
+          const int from = layout.lane(col), to = layout.lane(col + across);
+          project_run(left + from, right + to, springs.stiffness + from, Real(1), springs.rest_length, stride,
+                      layout.width);
+        }
+      }
+    }
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
+                                               Real* sheet) {
+  if (springs.rows == 0) {
+    project_within_rows(layout, springs, sheet);
+  } else {
+    project_between_rows(layout, springs, sheet);
+  }
+}
+
+/// Columns 4j to 4j + 3 for j < groups(cols), and the last column where it is left over.
+int groups(int cols) { return (cols + 2) / 4; }
+
+template <class Real>
+[[gnu::always_inline]] inline void to_lanes(const QuarterRows& layout, const Real* __restrict row,
+                                            Real* __restrict lanes) {
+  const int count = groups(layout.cols);
+  Real *lanes0 = lanes + layout.lane(0), *lanes1 = lanes + layout.lane(1);
+  Real *lanes2 = lanes + layout.lane(2), *lanes3 = lanes + layout.lane(3);
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int j = 0; j < count; ++j) {
+    lanes0[j] = row[4 * j];
+    lanes1[j] = row[4 * j + 1];
+    lanes2[j] = row[4 * j + 2];
+    lanes3[j] = row[4 * j + 3];
+  }
+  if (4 * count < layout.cols) lanes0[count] = row[4 * count];
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void from_lanes(const QuarterRows& layout, const Real* __restrict lanes,
+                                              Real* __restrict row) {
+  const int count = groups(layout.cols);
+  const Real *lanes0 = lanes + layout.lane(0), *lanes1 = lanes + layout.lane(1);
+  const Real *lanes2 = lanes + layout.lane(2), *lanes3 = lanes + layout.lane(3);
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int j = 0; j < count; ++j) {
+    row[4 * j] = lanes0[j];
+    row[4 * j + 1] = lanes1[j];
+    row[4 * j + 2] = lanes2[j];
+    row[4 * j + 3] = lanes3[j];
+  }
+  if (4 * count < layout.cols) row[4 * count] = lanes0[count];
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void set_inverse_masses_any(const QuarterRows& layout, const Grid& grid,
+                                                          const Real* inverse_mass, Real* sheet) {
+  for (int r = 0; r < grid.rows; ++r) {
+    to_lanes(layout, inverse_mass + grid.index(r, 0),
+             sheet + static_cast<std::size_t>(r) * layout.row_size() +
+                 3 * static_cast<std::size_t>(layout.stride));
+  }
+}
+
+/// One component of one row.
+template <class Real>
+[[gnu::always_inline]] inline void predict_row(const Real* __restrict force,
+                                               const Real* __restrict inverse_mass, Real* __restrict velocity,
+                                               Real* __restrict position, Real impulse_time, Real h,
+                                               int count) {
+  for (int c = 0; c < count; ++c) {
+    const bool free = inverse_mass[c] > Real(0);
+    const Real v = free ? velocity[c] + force[c] * inverse_mass[c] * impulse_time : Real(0);
+    velocity[c] = v;
+    position[c] += v * h;
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void predict_any(const QuarterRows& layout, const Grid& grid,
+                                               const XpbdNodes<Real>& nodes, Real impulse_time, Real h,
+                                               Real* sheet) {
+  const Components<const Real> f = nodes.force;
+  const Components<Real> v = nodes.velocity, p = nodes.position;
+  for (int r = 0; r < grid.rows; ++r) {
+    const std::size_t at = grid.index(r, 0);
+    const Real* inverse_mass = nodes.inverse_mass + at;
+    predict_row(f.x + at, inverse_mass, v.x + at, p.x + at, impulse_time, h, grid.cols);
+    predict_row(f.y + at, inverse_mass, v.y + at, p.y + at, impulse_time, h, grid.cols);
+    predict_row(f.z + at, inverse_mass, v.z + at, p.z + at, impulse_time, h, grid.cols);
+    Real* lanes = sheet + static_cast<std::size_t>(r) * layout.row_size();
+    to_lanes(layout, p.x + at, lanes);
+    to_lanes(layout, p.y + at, lanes + layout.stride);
+    to_lanes(layout, p.z + at, lanes + 2 * layout.stride);
+  }
+}
+
+/// One component of one row.
+template <class Real>
+[[gnu::always_inline]] inline void take_over_row(const QuarterRows& layout, const Real* lanes, Real rate,
+                                                 Real* __restrict velocity, Real* __restrict position,
+                                                 Real* __restrict row) {
+  from_lanes(layout, lanes, row);
+  for (int c = 0; c < layout.cols; ++c) {
+    velocity[c] += (row[c] - position[c]) * rate;
+    position[c] = row[c];
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void take_over_any(const QuarterRows& layout, const Grid& grid,
+                                                 const Real* sheet, Real h, const XpbdNodes<Real>& nodes,
+                                                 Real* row) {
+  const Real rate = Real(1) / h;
+  const Components<Real> v = nodes.velocity, p = nodes.position;
+  for (int r = 0; r < grid.rows; ++r) {
+    const Real* lanes = sheet + static_cast<std::size_t>(r) * layout.row_size();
+    const std::size_t at = grid.index(r, 0);
+    take_over_row(layout, lanes, rate, v.x + at, p.x + at, row);
+    take_over_row(layout, lanes + layout.stride, rate, v.y + at, p.y + at, row);
+    take_over_row(layout, lanes + 2 * layout.stride, rate, v.z + at, p.z + at, row);
+  }
+}
+
+}  // namespace
+
+QuarterRows::QuarterRows(const Grid& grid)
+    : rows(grid.rows),
+      cols(grid.cols),
+      width(round_up((grid.cols + 2) / 4, kGroup)),
+      stride(round_up(4 * width + 1, kRowAlign)) {}
+
+WEFT_MULTIVERSION void set_inverse_masses(const QuarterRows& layout, const Grid& grid,
+                                          const float* inverse_mass, float* sheet) {
+  set_inverse_masses_any(layout, grid, inverse_mass, sheet);
+}
+WEFT_MULTIVERSION void set_inverse_masses(const QuarterRows& layout, const Grid& grid,
+                                          const double* inverse_mass, double* sheet) {
+  set_inverse_masses_any(layout, grid, inverse_mass, sheet);
+}
+
+WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<float>& nodes,
+                               float impulse_time, float h, float* sheet) {
+  predict_any(layout, grid, nodes, impulse_time, h, sheet);
+}
+WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double>& nodes,
+                               double impulse_time, double h, double* sheet) {
+  predict_any(layout, grid, nodes, impulse_time, h, sheet);
+}
+
+WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet) {
+  project_any(layout, springs, sheet);
+}
+WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet) {
+  project_any(layout, springs, sheet);
+}
+
+WEFT_MULTIVERSION void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,
+                                 const XpbdNodes<float>& nodes, float* row) {
+  take_over_any(layout, grid, sheet, h, nodes, row);
+}
+WEFT_MULTIVERSION void take_over(const QuarterRows& layout, const Grid& grid, const double* sheet, double h,
+                                 const XpbdNodes<double>& nodes, double* row) {
+  take_over_any(layout, grid, sheet, h, nodes, row);
+}
+
+}  // namespace weft::kernels

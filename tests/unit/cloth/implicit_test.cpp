@@ -1,0 +1,248 @@
+// Backward Euler and BDF2: one spring's amplitude and frequency (T3, T4), free fall (T1), drag (T2), momentum
+// (T15), a hung sheet at rest (T9), contact with friction (T14), hopeless starts.
+#include "cloth/integrators/implicit.h"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <numbers>
+
+#include "cloth/diagnostics.h"
+#include "cloth/simulation.h"
+#include "rig.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+using test::get;
+using test::Rig;
+using test::set;
+
+constexpr double kFrame = 1.0 / 60.0;
+
+/// Solved to rounding, or nearly.
+template <class Description>
+Description exactly() {
+  Description description;
+  description.tolerance = 1e-12;
+  description.linear_iterations = 1000;
+  return description;
+}
+
+/// The middle column of 2 x 3 nodes 1 m apart swings along x between held ones, on springs of k each: w^2 =
+/// 2k / 1 kg.
+Rig<double> oscillator(double k, const IntegratorDescription& stepping) {
+  Particles<double> sheet = test::flat_sheet<double>(2, 3, {2, 1});
+  for (int r : {0, 1}) {
+    for (int c : {0, 2}) sheet.inverse_mass.at(r, c) = 0;
+    set(sheet.position, r, 1, get(sheet.position, r, 1) + Vec3(0.01, 0, 0));
+  }
+  Material material = test::without_springs();
+  material.structural = k;
+  return {std::move(sheet), {2, 1}, material, Discretization::paper, {}, stepping};
+}
+
+/// Amplification of one step of a method whose characteristic polynomial's principal root is `root`, over a
+/// period.
+struct Wave {
+  double amplitude;  ///< kept per period
+  double frequency;  ///< relative to w
+};
+Wave of_root(const std::complex<double>& root, int steps_a_period) {
+  return {std::pow(std::abs(root), steps_a_period),
+          std::abs(std::arg(root)) * steps_a_period / (2 * std::numbers::pi)};
+}
+/// y' = i w y: (1 - i w h) y1 = y0.
+Wave backward_euler_wave(int n) {
+  const std::complex<double> z(0, 2 * std::numbers::pi / n);
+  return of_root(1.0 / (1.0 - z), n);
+}
+/// (3/2 - i w h) y2 - 2 y1 + y0/2 = 0.
+Wave bdf2_wave(int n) {
+  const std::complex<double> z(0, 2 * std::numbers::pi / n);
+  return of_root((2.0 + std::sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z), n);
+}
+
+/// Measured over `periods` periods of n steps from the second on: an analytic signal x + i v/w decays and
+/// turns by the method's principal root once the start has died away.
+Wave measured(const IntegratorDescription& stepping, int n, int periods) {
+  constexpr double k = 100;
+  const double w = std::sqrt(2 * k);
+  Rig<double> rig = oscillator(k, stepping);
+  const double h = 2 * std::numbers::pi / w / n;
+  std::complex<double> first, previous;
+  double angle = 0;
+  for (int step = 0; step <= n * (periods + 1); ++step) {
+    const std::complex<double> now(get(rig.particles.position, 0, 1).x(),
+                                   -get(rig.particles.velocity, 0, 1).x() / w);
+    if (step == n) first = now;
+    if (step > n) angle += std::arg(now / previous);
+    previous = now;
+    rig.advance(step * h, h);
+  }
+  return {std::pow(std::abs(previous / first), 1.0 / periods),
+          std::abs(angle) / (2 * std::numbers::pi * periods)};
+}
+
+// T3 and T4: the table's numbers come from the methods' characteristic roots, which these are.
+TEST(Implicit, WavesOfTheTable) {
+  EXPECT_NEAR(backward_euler_wave(20).amplitude, 0.390144, 1e-6);
+  EXPECT_NEAR(backward_euler_wave(20).frequency, 0.968922, 1e-6);
+  EXPECT_NEAR(bdf2_wave(20).amplitude, 0.961631, 1e-6);
+  EXPECT_NEAR(bdf2_wave(20).frequency, 0.970709, 1e-6);
+  EXPECT_NEAR(bdf2_wave(200).amplitude, 0.999951, 1e-6);
+}
+
+TEST(Implicit, BackwardEulersSpringKeepsAmplitudeAndFrequencyOfTheory) {
+  for (const int n : {20, 60, 200}) {
+    const Wave expected = backward_euler_wave(n), wave = measured(exactly<BackwardEulerDescription>(), n, 2);
+    EXPECT_NEAR(wave.amplitude, expected.amplitude, 1e-6) << n;
+    EXPECT_NEAR(wave.frequency, expected.frequency, 1e-6) << n;
+  }
+}
+
+TEST(Implicit, Bdf2sSpringKeepsAmplitudeAndFrequencyOfTheory) {
+  for (const int n : {20, 60, 200}) {
+    const Wave expected = bdf2_wave(n), wave = measured(exactly<Bdf2Description>(), n, 2);
+    EXPECT_NEAR(wave.amplitude, expected.amplitude, 1e-6) << n;
+    EXPECT_NEAR(wave.frequency, expected.frequency, 1e-6) << n;
+  }
+}
+
+/// Speed and fall of a sheet without springs after one second.
+template <class Description>
+std::pair<double, double> fall(const std::vector<EffectDescription>& effects) {
+  Rig<double> rig = test::sheet_rig<double>(9, 9, exactly<Description>(), effects, test::without_springs());
+  rig.cloth.material.damping = 0.3;  // N s/m3; 0.1 kg/m2: c/m = 3 /s
+  const double start = get(rig.particles.position, 4, 4).y();
+  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
+  return {get(rig.particles.velocity, 4, 4).y(), get(rig.particles.position, 4, 4).y() - start};
+}
+
+// T1. Backward Euler's fall is -g h^2 n(n+1)/2; BDF2 starts with one such step and its parabola is then exact
+// but for that start: x'' = -g solved by BDF2 twice.
+TEST(Implicit, FreeFall) {
+  const auto [euler_speed, euler_fall] = fall<BackwardEulerDescription>({GravityEffect{}});
+  EXPECT_NEAR(euler_speed, -9.81, 1e-12);
+  EXPECT_NEAR(euler_fall, -9.81 * kFrame * kFrame * 60 * 61 / 2, 1e-12);
+  const auto [speed, distance] = fall<Bdf2Description>({GravityEffect{}});
+  EXPECT_NEAR(speed, -9.81, 1e-12);
+  double v[2] = {0, -9.81 * kFrame}, x[2] = {0, -9.81 * kFrame * kFrame};
+  for (int step = 1; step < 60; ++step) {
+    const double next_v = (4 * v[1] - v[0] - 2 * kFrame * 9.81) / 3,
+                 next_x = (4 * x[1] - x[0] + 2 * kFrame * next_v) / 3;
+    v[0] = std::exchange(v[1], next_v);
+    x[0] = std::exchange(x[1], next_x);
+  }
+  EXPECT_NEAR(distance, x[1], 1e-12);
+  EXPECT_NEAR(distance, -4.905, 9.81 * kFrame * kFrame);  // the start's error: at most g h^2
+}
+
+// T2: v' = -g - 3 v. Backward Euler: v1 (1 + 3h) = v0 - g h.
+TEST(Implicit, DragIsSolvedWithTheRest) {
+  double v = 0;
+  for (int step = 0; step < 60; ++step) v = (v - 9.81 * kFrame) / (1 + 3 * kFrame);
+  EXPECT_NEAR(fall<BackwardEulerDescription>({GravityEffect{}, DampingEffect{}}).first, v, 1e-12);
+  EXPECT_NEAR(fall<Bdf2Description>({GravityEffect{}, DampingEffect{}}).first,
+              -9.81 / 3 * (1 - std::exp(-3.0)),
+              9.81 / 3 * std::exp(-3.0) * 9 * kFrame * kFrame * 10);  // second order: (c h)^2, ten times
+}
+
+// T16: terminal speed of a sheet falling face on, sqrt(2 rho g / (rho_air C_d)), whose drag steps bear
+// whatever their length.
+TEST(Implicit, TerminalSpeed) {
+  const double expected = std::sqrt(2 * 0.1 * 9.81 / (1.225 * 1.2));
+  EXPECT_NEAR(expected, 1.155290, 1e-6);
+  Particles<double> sheet = test::flat_sheet<double>(9, 9, {2, 2});
+  each_node(sheet.grid(), [&](int r, int c) {
+    const Vec3 p = get(sheet.position, r, c);
+    set(sheet.position, r, c, {p.x(), 0, p.y()});
+  });
+  test::share_mass(sheet, 0.4, Discretization::continuum);
+  Rig<double> rig(std::move(sheet), {2, 2}, Material{}, Discretization::continuum,
+                  {GravityEffect{}, AerodynamicsEffect{}}, exactly<Bdf2Description>());
+  for (int step = 0; step < 200; ++step) rig.advance(step * kFrame, kFrame);
+  EXPECT_NEAR(get(rig.particles.velocity, 4, 4).y(), -expected, 1e-6);
+}
+
+// T15: internal forces cancel, whatever the solve leaves unfinished.
+TEST(Implicit, FreeSheetKeepsItsMomentum) {
+  Rig<double> rig = test::sheet_rig<double>(9, 9, exactly<Bdf2Description>());
+  test::randomise(rig.particles.velocity, -1, 1, 3);
+  const Vec3 before = linear_momentum(rig.particles);
+  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
+  // 0.4 kg at about 1 m/s; BDF2's own start is backward Euler, which keeps it too.
+  EXPECT_LT((linear_momentum(rig.particles) - before).norm(), 1e-9);
+}
+
+// T9: rho g L^2 / (2 Y) for a sheet hung by its top edge, by equilibrium of each row; no drop of length in
+// the step.
+TEST(Implicit, HungSheetStretchesByTheory) {
+  Material material;
+  material.shear = material.bending = 0;
+  Rig<double> rig =
+      test::sheet_rig<double>(17, 5, exactly<BackwardEulerDescription>(), {GravityEffect{}}, material);
+  for (int c = 0; c < 5; ++c) rig.particles.inverse_mass.at(0, c) = 0;
+  for (int step = 0; step < 100; ++step) rig.advance(step * 0.1, 0.1);
+  const double stretch = -1 - get(rig.particles.position, 16, 2).y();
+  EXPECT_NEAR(stretch, 0.1 * 9.81 * 4 / (2 * 5000), 1e-9);
+}
+
+/// A scene of one 0.2 m sheet on a ball so large that its top is an incline.
+SimulationDescription incline(double degrees, double friction) {
+  constexpr double kRadius = 1000;
+  const double angle = degrees * std::numbers::pi / 180;
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.size = {0.2, 0.2};
+  cloth.min_level = cloth.max_level = cloth.initial_level = 3;
+  // Lies on the slope: its normal is the ball's at the angle from the top.
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-angle, Vec3::UnitZ())) * cloth.orientation;
+  cloth.position = (kRadius + 1e-9) * Vec3(std::sin(angle), std::cos(angle), 0);
+  scene.cloths = {cloth};
+  BallDescription ball;
+  ball.radius = kRadius;
+  ball.friction = friction;
+  scene.balls = {ball};
+  scene.effects = {GravityEffect{}};
+  scene.integrator = exactly<Bdf2Description>();
+  return scene;
+}
+double slide(const SimulationDescription& scene, double degrees, double seconds) {
+  Simulation<double> simulation(scene);
+  const Vec3 start = simulation.centre(0);
+  for (int step = 0; step < std::lround(seconds * 60); ++step) simulation.step();
+  const double angle = degrees * std::numbers::pi / 180;
+  return (simulation.centre(0) - start).dot(Vec3(std::cos(angle), -std::sin(angle), 0));
+}
+
+// T14: slides iff tan(angle) > mu, at g (sin - mu cos).
+TEST(Implicit, SheetOnAnInclineRestsOrSlides) {
+  EXPECT_LT(slide(incline(15, 0.3), 15, 1.0), 0.005);  // two steps until friction has taken hold: g sin h^2 3
+  EXPECT_NEAR(slide(incline(20, 0.3), 20, 1.0), 0.589702 / 2, 0.03 * 0.589702);
+  EXPECT_NEAR(slide(incline(30, 0.5), 30, 1.0), 0.657145 / 2, 0.03 * 0.657145);
+}
+
+// Stiff, slack and hopeless: finite, and never more energy than there was.
+TEST(Implicit, SurvivesWhatItCannotSolve) {
+  for (const double stiffness : {1e-1, 1e7}) {
+    for (const bool collapsed : {false, true}) {
+      Material material;
+      material.structural = stiffness;
+      Rig<float> rig = test::hung_rig<float>(17, 17, BackwardEulerDescription{}, {GravityEffect{}}, material);
+      if (collapsed) {
+        each_node(rig.particles.grid(),
+                  [&](int r, int c) { set(rig.particles.position, r, c, Vec3::Zero()); });
+      } else {
+        test::randomise(rig.particles.position, -1, 1, 5);
+      }
+      for (int step = 0; step < 120; ++step) rig.advance(step * kFrame, kFrame);
+      EXPECT_TRUE(is_finite(rig.particles)) << stiffness << collapsed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace weft

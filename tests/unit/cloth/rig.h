@@ -1,0 +1,62 @@
+#pragma once
+/// One sheet under one integrator, without the scene around it.
+#include <memory>
+#include <utility>
+
+#include "cloth/integrators/integrator.h"
+#include "fixtures.h"
+
+namespace weft::test {
+
+/// A sheet, its springs and effects, stepped by the integrator alone.
+template <class Real>
+struct Rig {
+  ClothDescription cloth;
+  Wind wind;
+  std::vector<Ball> balls;
+  Particles<Real> particles;
+  Springs<Real> springs;
+  std::vector<std::unique_ptr<Effect<Real>>> effects;
+  std::unique_ptr<Integrator<Real>> integrator;
+
+  Rig(Particles<Real> sheet, const Vec2& size, const Material& material, Discretization discretization,
+      const std::vector<EffectDescription>& listed, const IntegratorDescription& stepping)
+      : particles(std::move(sheet)),
+        springs(material, discretization, size, particles.grid()),
+        effects(make_effects<Real>(listed)),
+        integrator(make_integrator<Real>(stepping)) {
+    cloth.size = size;
+    cloth.material = material;
+    cloth.discretization = discretization;
+  }
+  AdvanceReport advance(double time, double dt) {
+    return integrator->advance(particles, {&springs, &effects, {&cloth, &wind, time}}, nullptr, balls, time,
+                               dt);
+  }
+};
+
+/// A square sheet of 2 m in the x-y plane, 0.4 kg, shared as the continuum has it.
+template <class Real>
+Rig<Real> sheet_rig(int rows, int cols, const IntegratorDescription& stepping,
+                    const std::vector<EffectDescription>& effects = {}, const Material& material = {}) {
+  Particles<Real> sheet = flat_sheet<Real>(rows, cols, {2, 2});
+  share_mass(sheet, 0.4, Discretization::continuum);
+  return {std::move(sheet), {2, 2}, material, Discretization::continuum, effects, stepping};
+}
+
+/// The same, held by its upper corners.
+template <class Real>
+Rig<Real> hung_rig(int rows, int cols, const IntegratorDescription& stepping,
+                   const std::vector<EffectDescription>& effects = {}, const Material& material = {}) {
+  Rig<Real> rig = sheet_rig<Real>(rows, cols, stepping, effects, material);
+  for (int c : {0, cols - 1}) rig.particles.inverse_mass.at(0, c) = 0;
+  return rig;
+}
+
+inline Material without_springs() {
+  Material material;
+  material.structural = material.shear = material.bending = 0;
+  return material;
+}
+
+}  // namespace weft::test
