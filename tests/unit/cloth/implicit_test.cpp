@@ -210,19 +210,24 @@ SimulationDescription incline(double degrees, double friction) {
   scene.integrator = exactly<Bdf2Description>();
   return scene;
 }
-double slide(const SimulationDescription& scene, double degrees, double seconds) {
+/// How far the sheet slides down the incline from one time to another, m.
+double slide(const SimulationDescription& scene, double degrees, double from, double to) {
   Simulation<double> simulation(scene);
-  const Vec3 start = simulation.centre(0);
-  for (int step = 0; step < std::lround(seconds * 60); ++step) simulation.step();
+  const auto run_to = [&](double seconds) {
+    while (simulation.time() < seconds - kFrame / 2) simulation.step();
+    return simulation.centre(0);
+  };
   const double angle = degrees * std::numbers::pi / 180;
-  return (simulation.centre(0) - start).dot(Vec3(std::cos(angle), -std::sin(angle), 0));
+  const Vec3 begin = run_to(from);
+  return (run_to(to) - begin).dot(Vec3(std::cos(angle), -std::sin(angle), 0));
 }
 
-// T14: slides iff tan(angle) > mu, at g (sin - mu cos).
+// T14: slides iff tan(angle) > mu, at g (sin - mu cos). At rest it may creep at contact_constraints.cpp's
+// sticking speed of 1e-4 m/s. Friction begins in the third step, and lags by one: g h of speed, 3 h of time.
 TEST(Implicit, SheetOnAnInclineRestsOrSlides) {
-  EXPECT_LT(slide(incline(15, 0.3), 15, 1.0), 0.005);  // two steps until friction has taken hold: g sin h^2 3
-  EXPECT_NEAR(slide(incline(20, 0.3), 20, 1.0), 0.589702 / 2, 0.03 * 0.589702);
-  EXPECT_NEAR(slide(incline(30, 0.5), 30, 1.0), 0.657145 / 2, 0.03 * 0.657145);
+  EXPECT_LT(slide(incline(15, 0.3), 15, 1.0, 2.0), 1e-4);
+  EXPECT_NEAR(slide(incline(20, 0.3), 20, 0, 1.0), 0.589702 / 2, 0.03 * 0.589702);
+  EXPECT_NEAR(slide(incline(30, 0.5), 30, 0, 1.0), 0.657145 / 2, 0.03 * 0.657145);
 }
 
 // Stiff, slack and hopeless: finite, and never more energy than there was.
