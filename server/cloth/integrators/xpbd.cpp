@@ -67,7 +67,7 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<Spr
     row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
-  const auto lanes = static_cast<std::size_t>(layout_.stride);
+  const std::size_t lanes = layout_.stride;
   stiffness_.assign(families.size() * lanes, Real(0));
   springs_.clear();
   // Bending, shear, structural: the stiffest have the last word.

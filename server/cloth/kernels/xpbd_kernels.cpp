@@ -1,6 +1,7 @@
 #include "cloth/kernels/xpbd_kernels.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -46,15 +47,14 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
                                                        const XpbdSprings<Real>& springs, Real* sheet) {
-  const auto stride = static_cast<std::size_t>(layout.stride);
   for (int r = 0; r < layout.rows; ++r) {
     Real* row = sheet + static_cast<std::size_t>(r) * layout.row_size();
     const Real share = r == 0 || r == layout.rows - 1 ? springs.border_row_share : Real(1);
     for (int i = 0; i < 4; ++i) {
       const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
       const int left = layout.lane(col), right = layout.lane(col + springs.cols);
-      project_run(row + left, row + right, springs.stiffness + left, share, springs.rest_length, stride,
-                  layout.width);
+      project_run(row + left, row + right, springs.stiffness + left, share, springs.rest_length,
+                  layout.stride, layout.width);
     }
   }
 }
@@ -63,7 +63,6 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
                                                         const XpbdSprings<Real>& springs, Real* sheet) {
-  const auto stride = static_cast<std::size_t>(layout.stride);
   const int across = springs.cols < 0 ? -springs.cols : springs.cols;
   for (int colour = 0; colour < 2; ++colour) {
     for (int r = 0; r + springs.rows < layout.rows; ++r) {
@@ -72,13 +71,13 @@ template <class Real>
       Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
       if (springs.cols < 0) std::swap(left, right);
       if (across == 0) {
-        project_run(left, right, springs.stiffness, Real(1), springs.rest_length, stride,
+        project_run(left, right, springs.stiffness, Real(1), springs.rest_length, layout.stride,
                     round_up(4 * layout.width + 1, kGroup));
       } else {
         for (int col = 0; col < 4; ++col) {
           const int from = layout.lane(col), to = layout.lane(col + across);
-          project_run(left + from, right + to, springs.stiffness + from, Real(1), springs.rest_length, stride,
-                      layout.width);
+          project_run(left + from, right + to, springs.stiffness + from, Real(1), springs.rest_length,
+                      layout.stride, layout.width);
         }
       }
     }
@@ -96,16 +95,16 @@ template <class Real>
 }
 
 /// Columns 4j to 4j + 3 for j < groups(cols), and the last column where it is left over.
-int groups(int cols) { return (cols + 2) / 4; }
+std::ptrdiff_t groups(int cols) { return (cols + 2) / 4; }
 
 template <class Real>
 [[gnu::always_inline]] inline void to_lanes(const QuarterRows& layout, const Real* __restrict row,
                                             Real* __restrict lanes) {
-  const int count = groups(layout.cols);
+  const std::ptrdiff_t count = groups(layout.cols);
   Real *lanes0 = lanes + layout.lane(0), *lanes1 = lanes + layout.lane(1);
   Real *lanes2 = lanes + layout.lane(2), *lanes3 = lanes + layout.lane(3);
   WEFT_INDEPENDENT_ITERATIONS
-  for (int j = 0; j < count; ++j) {
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
     lanes0[j] = row[4 * j];
     lanes1[j] = row[4 * j + 1];
     lanes2[j] = row[4 * j + 2];
@@ -117,11 +116,11 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void from_lanes(const QuarterRows& layout, const Real* __restrict lanes,
                                               Real* __restrict row) {
-  const int count = groups(layout.cols);
+  const std::ptrdiff_t count = groups(layout.cols);
   const Real *lanes0 = lanes + layout.lane(0), *lanes1 = lanes + layout.lane(1);
   const Real *lanes2 = lanes + layout.lane(2), *lanes3 = lanes + layout.lane(3);
   WEFT_INDEPENDENT_ITERATIONS
-  for (int j = 0; j < count; ++j) {
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
     row[4 * j] = lanes0[j];
     row[4 * j + 1] = lanes1[j];
     row[4 * j + 2] = lanes2[j];
@@ -135,8 +134,7 @@ template <class Real>
                                                           const Real* inverse_mass, Real* sheet) {
   for (int r = 0; r < grid.rows; ++r) {
     to_lanes(layout, inverse_mass + grid.index(r, 0),
-             sheet + static_cast<std::size_t>(r) * layout.row_size() +
-                 3 * static_cast<std::size_t>(layout.stride));
+             sheet + static_cast<std::size_t>(r) * layout.row_size() + 3 * layout.stride);
   }
 }
 
@@ -206,7 +204,7 @@ QuarterRows::QuarterRows(const Grid& grid)
     : rows(grid.rows),
       cols(grid.cols),
       width(round_up((grid.cols + 2) / 4, kGroup)),
-      stride(round_up(4 * width + 1, kRowAlign)) {}
+      stride(static_cast<std::size_t>(round_up(4 * width + 1, kRowAlign))) {}
 
 WEFT_MULTIVERSION void set_inverse_masses(const QuarterRows& layout, const Grid& grid,
                                           const float* inverse_mass, float* sheet) {

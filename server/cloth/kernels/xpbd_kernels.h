@@ -9,13 +9,13 @@ namespace weft::kernels {
 /// scalars each.
 struct QuarterRows {
   int rows = 0, cols = 0;
-  int width = 0;   ///< lanes of a quarter, a multiple of 8
-  int stride = 0;  ///< scalars from one component to the next; a row takes four of them
+  int width = 0;           ///< lanes of a quarter, a multiple of 8
+  std::size_t stride = 0;  ///< scalars from one component to the next; a row takes four of them
 
   QuarterRows() = default;
   explicit QuarterRows(const Grid& grid);
   std::size_t size() const { return static_cast<std::size_t>(rows) * row_size(); }
-  std::size_t row_size() const { return 4 * static_cast<std::size_t>(stride); }
+  std::size_t row_size() const { return 4 * stride; }
   /// Where the columns col, col + 4, col + 8, ... begin.
   int lane(int col) const { return (col + 3) % 4 * width + col / 4; }
 };
