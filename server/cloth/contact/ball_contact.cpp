@@ -45,8 +45,8 @@ class Node {
   }
 
   /// Takes away the velocity, relative to the ball's, that points against `normal`, and what friction then
-  /// takes of the rest; the ball gets the momentum.
-  void stop_inward_velocity(Ball& ball, const Vec3& normal) {
+  /// takes of the rest, with its way in the substep's seconds; the ball gets the momentum.
+  void stop_inward_velocity(Ball& ball, const Vec3& normal, double seconds) {
     const Vec3 velocity = particles_.velocity_at(row_, col_);
     const Vec3 relative = velocity - ball.velocity;
     const double inward = relative.dot(normal);
@@ -54,7 +54,11 @@ class Node {
     Vec3 lost = inward * normal;
     const Vec3 sliding = relative - lost;
     const double speed = sliding.norm();
-    if (ball.friction > 0 && speed > 0) lost += std::min(1.0, -ball.friction * inward / speed) * sliding;
+    if (ball.friction > 0 && speed > 0) {
+      const Vec3 held = std::min(1.0, -ball.friction * inward / speed) * sliding;
+      set_position(position_ - seconds * held);
+      lost += held;
+    }
     const Vec3 stopped = velocity - lost;
     particles_.velocity.x.at(row_, col_) = static_cast<Real>(stopped.x());
     particles_.velocity.y.at(row_, col_) = static_cast<Real>(stopped.y());
@@ -94,16 +98,16 @@ double way_out(const PlacedBall& ball, const Vec3& origin, const Vec3& direction
 /// Brings a node that is inside some ball out of all of them; false if it is in none.
 template <class Real>
 bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed,
-                  std::vector<Touch>& touches) {
+                  double seconds, std::vector<Touch>& touches) {
   Vec3 middle(0, 0, 0);  // of the balls it was found in
   int found = 0;
   for (int round = 0; round < kProjections; ++round) {
     bool moved = false;
     for (std::size_t b = 0; b < placed.size(); ++b) {
       if (!node.inside(placed[b])) continue;
-      const Vec3 normal = outwards(placed[b].centre, node.position());
-      node.put_outside(placed[b], placed[b].centre, normal, placed[b].radius);
-      node.stop_inward_velocity(balls[b], normal);
+      node.stop_inward_velocity(balls[b], outwards(placed[b].centre, node.position()), seconds);
+      node.put_outside(placed[b], placed[b].centre, outwards(placed[b].centre, node.position()),
+                       placed[b].radius);
       if (round == 0) touches.push_back({node.index(), balls[b].id});
       middle += placed[b].centre;
       ++found;
@@ -129,13 +133,15 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
 }  // namespace
 
 template <class Real>
-int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to) {
+int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& balls, const Substep& substep) {
   touches_.clear();
-  const std::vector<TileBallPair>& pairs = broad_phase_.find_pairs(particles.position, balls, from, to);
+  const std::vector<TileBallPair>& pairs =
+      broad_phase_.find_pairs(particles.position, balls, substep.from, substep.to);
   if (pairs.empty()) return 0;
   std::vector<PlacedBall> placed;
   placed.reserve(balls.size());
-  for (const Ball& ball : balls) placed.push_back({ball.at(to), ball.radius, ball.radius * ball.radius});
+  for (const Ball& ball : balls)
+    placed.push_back({ball.at(substep.to), ball.radius, ball.radius * ball.radius});
 
   const Grid& grid = particles.grid();
   const kernels::Components<const Real> position = kernels::components(particles.position);
@@ -163,7 +169,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
       for (int c = 0; c < cols; ++c) {
         if (particles.inverse_mass.at(tile.row_begin + r, tile.col_begin + c) == Real(0)) continue;
         Node<Real> node(particles, tile.row_begin + r, tile.col_begin + c);
-        if (resolve_node(node, balls, placed, touches_)) ++in_contact;
+        if (resolve_node(node, balls, placed, substep.seconds, touches_)) ++in_contact;
       }
     }
   }

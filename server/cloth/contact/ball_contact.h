@@ -17,6 +17,16 @@ struct ContactCounters {
   }
 };
 
+/// A part of a step: it begins and ends at these fractions of the step and takes so many seconds.
+struct Substep {
+  double from = 0, to = 1;
+  double seconds = 1.0 / 60;
+
+  static Substep of(int index, int count, double dt) {
+    return {static_cast<double>(index) / count, static_cast<double>(index + 1) / count, dt / count};
+  }
+};
+
 /// A node on a ball.
 struct Touch {
   std::size_t node = 0;  ///< index into the grid's arrays
@@ -33,9 +43,8 @@ class BallContact {
  public:
   explicit BallContact(const Grid& grid) : broad_phase_(grid) {}
 
-  /// Resolves contacts for a substep that ends at fraction `to` of the step and began at `from`.
-  /// Returns the number of nodes in contact in this call.
-  int resolve(Particles<Real>& particles, std::vector<Ball>& balls, double from, double to);
+  /// Resolves the contacts at a substep's end. Returns the number of nodes in contact in this call.
+  int resolve(Particles<Real>& particles, std::vector<Ball>& balls, const Substep& substep);
 
   /// What the last resolve found in contact, ordered by tile, then node.
   const std::vector<Touch>& touches() const { return touches_; }

@@ -41,10 +41,10 @@ void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Vec3& n
 
 template <class Real>
 void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-                                     const std::vector<Ball>& balls, double from, double to, double h) {
+                                     const std::vector<Ball>& balls, const Substep& substep) {
   std::swap(last_, constraints_);
   constraints_.clear();
-  h_ = h;
+  const double h = seconds_ = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
   const auto key = [](const Touch& touch) { return std::pair(touch.node, touch.ball); };
@@ -56,7 +56,7 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Pa
     const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
     const double force = same != last_.end() && key(same->touch) == key(touch) ? same->force : 0.0;
 
-    const Vec3 centre = ball->at(to), move = centre - ball->at(from);
+    const Vec3 centre = ball->at(substep.to), move = centre - ball->at(substep.from);
     const Vec3 start = at(position, touch.node), guess = h * at(velocity, touch.node);
     const Vec3 offset = start + guess - centre;
     const double length = offset.norm();
@@ -94,7 +94,7 @@ void ContactConstraints<Real>::finish(kernels::Components<const Real> move, std:
     Ball& ball = balls[c.ball];
     if (ball.motion == BallDescription::Motion::dynamic) {
       ball.impulse -=
-          h_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
+          seconds_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
     }
     c.force = std::max(0.0, c.force);
   }

@@ -13,9 +13,8 @@ template <class Real>
 class ContactConstraints {
  public:
   /// Nodes that touched, with forces from the last step; positions and velocities as the substep begins.
-  /// The substep goes from fraction `from` to `to` of the step and takes `h` seconds.
   void begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-             const std::vector<Ball>& balls, double from, double to, double h);
+             const std::vector<Ball>& balls, const Substep& substep);
   void clear() { constraints_.clear(); }
   bool empty() const { return constraints_.empty(); }
 
@@ -45,7 +44,7 @@ class ContactConstraints {
     double force = 0;           ///< along the normal, N
   };
   std::vector<Constraint> constraints_, last_;
-  double h_ = 0;
+  double seconds_ = 0;  ///< of the substep
 };
 
 extern template class ContactConstraints<float>;

@@ -57,15 +57,14 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   begin_step(particles, *forces.springs);
   ContactConstraints<Real>& contacts = state_->contacts;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
-    const double from = static_cast<double>(substep) / parameters_.substeps;
-    const double to = static_cast<double>(substep + 1) / parameters_.substeps;
+    const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
     if (contact != nullptr) {
-      contacts.begin(contact->touches(), particles, balls, from, to, h);
+      contacts.begin(contact->touches(), particles, balls, part);
     } else {
       contacts.clear();
     }
-    forces.context.time = time + to * dt;  // forces act as they are at the substep's end
+    forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     begin_substep(particles, h);
     for (int iteration = 0; iteration < parameters_.newton_iterations; ++iteration) {
       assemble(particles, forces);
@@ -81,7 +80,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
       contacts.finish(state_->move, balls);
-      report.nodes_in_contact = contact->resolve(particles, balls, from, to);
+      report.nodes_in_contact = contact->resolve(particles, balls, part);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     end_substep(particles, contact, h);

@@ -49,8 +49,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact == nullptr) continue;
-    report.nodes_in_contact = contact->resolve(particles, balls, static_cast<double>(s) / report.substeps,
-                                               static_cast<double>(s + 1) / report.substeps);
+    report.nodes_in_contact = contact->resolve(particles, balls, Substep::of(s, report.substeps, dt));
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;

@@ -1,0 +1,142 @@
+// Falls (T1, T2, T16), the limit of stability (T5), momentum (T15), friction (T14) for every method.
+#include "cloth/diagnostics.h"
+#include "cloth/simulation.h"
+#include "methods.h"
+
+namespace weft::test {
+namespace {
+
+using Motion = EveryMethod;
+INSTANTIATE_TEST_SUITE_P(Methods, Motion, ::testing::ValuesIn(kMethods), name_of_case);
+
+constexpr double kFrame = 1.0 / 60;
+
+/// A sheet that lies face down, without springs.
+Rig<double> falling_sheet(Method method, int substeps, const std::vector<EffectDescription>& effects,
+                          double damping = 0) {
+  Particles<double> sheet = flat_sheet<double>(9, 9, {2, 2});
+  each_node(sheet.grid(), [&](int r, int c) {
+    const Vec3 p = get(sheet.position, r, c);
+    set(sheet.position, r, c, {p.x(), 0, p.y()});
+  });
+  share_mass(sheet, 0.4, Discretization::continuum);
+  Material material = without_springs();
+  material.damping = damping;
+  return {std::move(sheet), {2, 2}, material, Discretization::continuum, effects, stepping(method, substeps)};
+}
+
+// T1: 1 s in 60 steps falls -g/2; methods of first order, whose speeds are exact, fall g h^2 n (n+1) / 2.
+TEST_P(Motion, FreeFall) {
+  Rig<double> rig = falling_sheet(GetParam(), 1, {GravityEffect{}});
+  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
+  EXPECT_NEAR(get(rig.particles.velocity, 4, 4).y(), -9.81, 1e-10);
+  const double y = get(rig.particles.position, 4, 4).y();
+  if (GetParam() == Method::bdf2) {
+    EXPECT_NEAR(
+        y, -4.905,
+        9.81 * kFrame * kFrame);  // its first step is backward Euler's: an error of g h^2 / 2, carried on
+  } else {
+    EXPECT_NEAR(y, -4.98675, 1e-10);
+  }
+}
+
+// T2: v(t) = -(g/c) (1 - exp(-c t)) with c = k/m = 3 /s.
+TEST_P(Motion, DampedFall) {
+  Rig<double> rig = falling_sheet(GetParam(), 20, {GravityEffect{}, DampingEffect{}}, 0.3);
+  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
+  const double h = kFrame / 20, expected = -9.81 / 3 * (1 - std::exp(-3.0));
+  // First order: c h / 2 of what has not yet died away, c t exp(-c t) of the limit.
+  EXPECT_NEAR(get(rig.particles.velocity, 4, 4).y(), expected, 9.81 / 3 * (3 * std::exp(-3.0)) * 3 * h);
+}
+
+// T16: face on, drag coefficient 1.2: sqrt(2 rho g / (rho_air C)).
+TEST_P(Motion, TerminalSpeed) {
+  const double expected = std::sqrt(2 * 0.1 * 9.81 / (1.225 * 1.2));
+  EXPECT_NEAR(expected, 1.155290, 1e-6);
+  Rig<double> rig = falling_sheet(GetParam(), 8, {GravityEffect{}, AerodynamicsEffect{}});
+  for (int step = 0; step < 200; ++step) rig.advance(step * kFrame, kFrame);
+  EXPECT_NEAR(get(rig.particles.velocity, 4, 4).y(), -expected, 1e-6);
+}
+
+// T5: symplectic Euler is stable for w h < 2, its energy bounded without drift; the others are stable for any
+// step.
+TEST(StabilityLimit, IsAtTwo) {
+  const auto amplitude = [](Method method, double wh, int steps) {
+    Particles<double> sheet = flat_sheet<double>(2, 3, {2, 1});
+    for (int r : {0, 1}) {
+      for (int c : {0, 2}) sheet.inverse_mass.at(r, c) = 0;
+      set(sheet.position, r, 1, get(sheet.position, r, 1) + Vec3(1e-3, 0, 0));
+    }
+    Rig<double> rig(std::move(sheet), {2, 1}, strands(0.5), Discretization::paper, {},
+                    stepping(method, 1));  // w = 1
+    double most = 0;
+    for (int step = 0; step < steps; ++step) {
+      rig.advance(step * wh, wh);
+      most = std::max(most, std::abs(get(rig.particles.position, 0, 1).x()));
+    }
+    return most;
+  };
+  // Below 2 the amplitude is at most that of the invariant v^2 - w^2 h x v + w^2 x^2: 1 / sqrt(1 - (w h)^2 /
+  // 4).
+  EXPECT_LT(amplitude(Method::symplectic_euler, 1.9, 100000), 1e-3 * 1.001 / std::sqrt(1 - 1.9 * 1.9 / 4));
+  EXPECT_GT(amplitude(Method::symplectic_euler, 2.01, 1000), 1.0);
+  for (const Method method : {Method::backward_euler, Method::bdf2, Method::xpbd}) {
+    EXPECT_LE(amplitude(method, 100, 1000), 1e-3) << name_of(method);
+  }
+}
+
+// T15: internal forces cancel. Angular momentum is kept by symplectic Euler alone; the others' lets their
+// order's share go.
+TEST_P(Motion, FreeClothKeepsItsMomentum) {
+  Rig<double> rig =
+      sheet_rig<double>(9, 9, stepping(GetParam(), GetParam() == Method::symplectic_euler ? 0 : 1));
+  randomise(rig.particles.velocity, -1, 1, 3);
+  const Vec3 linear = linear_momentum(rig.particles), angular = angular_momentum(rig.particles);
+  for (int step = 0; step < 60; ++step) rig.advance(step * kFrame, kFrame);
+  // The solves end at 1e-12 of the energy's root; the others round: 1e-16 of 5,000 N/m a step.
+  EXPECT_LT((linear_momentum(rig.particles) - linear).norm(), 1e-9);
+  if (GetParam() == Method::symplectic_euler) {
+    EXPECT_LT((angular_momentum(rig.particles) - angular).norm(), 1e-9);
+  }
+}
+
+/// How far, m, a 0.2 m sheet slides from one time to another down the top of a ball of 1 km, `degrees` from
+/// level.
+double slide(Method method, double degrees, double friction, double from, double to) {
+  constexpr double kRadius = 1000;
+  const double angle = degrees * std::numbers::pi / 180;
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.size = {0.2, 0.2};
+  cloth.min_level = cloth.max_level = cloth.initial_level = 3;
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-angle, Vec3::UnitZ())) *
+                      Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  cloth.position = (kRadius + 1e-9) * Vec3(std::sin(angle), std::cos(angle), 0);
+  scene.cloths = {cloth};
+  BallDescription ball;
+  ball.radius = kRadius;
+  ball.friction = friction;
+  scene.balls = {ball};
+  scene.effects = {GravityEffect{}};
+  scene.integrator = stepping(method, method == Method::symplectic_euler ? 0
+                                      : method == Method::xpbd           ? 10
+                                                                         : 1);
+  Simulation<double> simulation(scene);
+  const auto run_to = [&](double seconds) {
+    while (simulation.time() < seconds - kFrame / 2) simulation.step();
+    return simulation.centre(0);
+  };
+  const Vec3 begin = run_to(from);
+  return (run_to(to) - begin).dot(Vec3(std::cos(angle), -std::sin(angle), 0));
+}
+
+// T14: slides iff tan(angle) > mu, at g (sin - mu cos). At rest a creep of 1e-4 m/s is allowed
+// (contact_constraints.cpp); friction begins with the contact, up to three steps late.
+TEST_P(Motion, SheetOnAnInclineRestsOrSlides) {
+  EXPECT_LT(slide(GetParam(), 15, 0.3, 1.0, 2.0), 1e-4);
+  EXPECT_NEAR(slide(GetParam(), 20, 0.3, 0, 1), 0.589702 / 2, 0.03 * 0.589702);
+  EXPECT_NEAR(slide(GetParam(), 30, 0.5, 0, 1), 0.657145 / 2, 0.03 * 0.657145);
+}
+
+}  // namespace
+}  // namespace weft::test
