@@ -228,7 +228,7 @@ template <class Real>
 
 }  // namespace
 
-// target_clones needs each function written out.
+// target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
 #define WEFT_IMPLICIT_KERNELS(Real)                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid,             \
@@ -304,5 +304,6 @@ template <class Real>
 WEFT_IMPLICIT_KERNELS(float)
 WEFT_IMPLICIT_KERNELS(double)
 #undef WEFT_IMPLICIT_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels

@@ -252,20 +252,20 @@ template <class Real, bool kBending, class Links>
   for (int r = 0; r < coarse_grid.rows; ++r) {
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c + 1 < coarse_grid.cols; ++c) {
-      const std::ptrdiff_t i = 2 * r * stride + 2 * c;
+      const std::ptrdiff_t i = (r * stride + c) * 2;
       store(coarse.along_u, r * coarse_stride + c,
             coarse_structural<Real, kBending>(fine.along_u, fine.bending_u, i, std::ptrdiff_t{1}, stride));
     }
     if (r + 1 == coarse_grid.rows) break;
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c < coarse_grid.cols; ++c) {
-      const std::ptrdiff_t i = 2 * r * stride + 2 * c;
+      const std::ptrdiff_t i = (r * stride + c) * 2;
       store(coarse.along_v, r * coarse_stride + c,
             coarse_structural<Real, kBending>(fine.along_v, fine.bending_v, i, stride, std::ptrdiff_t{1}));
     }
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c + 1 < coarse_grid.cols; ++c) {
-      const std::ptrdiff_t i = 2 * r * stride + 2 * c;
+      const std::ptrdiff_t i = (r * stride + c) * 2;
       store(coarse.falling, r * coarse_stride + c, coarse_diagonal<Real>(fine.falling, i, stride));
       // A rising link begins at its cell's right: the fine ones at columns 1 and 2 of the coarse cell.
       store(coarse.rising, r * coarse_stride + c + 1, coarse_diagonal<Real>(fine.rising, i + 1, stride));
@@ -287,10 +287,10 @@ template <class Real, class Links>
 }  // namespace
 
 std::size_t link_work_size(const Grid& grid) {
-  return 3 * WorkRows<float>::kVectors * WorkRows<float>::row_size(grid);
+  return 3 * std::size_t{WorkRows<float>::kVectors} * WorkRows<float>::row_size(grid);
 }
 
-// target_clones needs each function written out.
+// target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
 #define WEFT_LINK_KERNELS(Real, Links)                                                                       \
   template <>                                                                                                \
   WEFT_MULTIVERSION double multiply(const LinkMatrix<Real, Links>& matrix, Components<const Real> x,         \
@@ -324,5 +324,6 @@ WEFT_LINK_KERNELS(float, Blocks<float>)
 WEFT_LINK_KERNELS(double, SpringLinks<double>)
 WEFT_LINK_KERNELS(double, Blocks<double>)
 #undef WEFT_LINK_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels

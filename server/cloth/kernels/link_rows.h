@@ -39,7 +39,7 @@ class WorkRows {
  public:
   static constexpr int kVectors = 8;
   static std::size_t row_size(const Grid& grid) {
-    return static_cast<std::size_t>(grid.stride) + 2 * kRowAlign;
+    return static_cast<std::size_t>(grid.stride) + 2 * std::size_t{kRowAlign};
   }
 
   [[gnu::always_inline]] WorkRows(const Grid& grid, Real* work) : size_(row_size(grid)), work_(work) {}

@@ -13,13 +13,14 @@ template <class Real>
   column[-1] = Real(0);
   const int count = grouped(fine_grid.cols);
   for (int r = 0; r < coarse_grid.rows; ++r) {
-    const Real* __restrict row = fine + 2 * r * stride;
+    const Real* __restrict row = fine + r * stride * 2;
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c < count; ++c) column[c] = row[c] + (row[c - stride] + row[c + stride]) / 2;
     Real* __restrict out = coarse + r * std::ptrdiff_t{coarse_grid.stride};
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c < coarse_grid.cols; ++c) {
-      out[c] = column[2 * c] + (column[2 * c - 1] + column[2 * c + 1]) / 2;
+      const Real* at = column + std::ptrdiff_t{2} * c;
+      out[c] = at[0] + (at[-1] + at[1]) / 2;
     }
   }
 }
@@ -41,8 +42,9 @@ template <class Real>
     const Real* __restrict mask = free + first;
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c + 1 < coarse_grid.cols; ++c) {
-      out[2 * c] += mask[2 * c] * column[c];
-      out[2 * c + 1] += mask[2 * c + 1] * ((column[c] + column[c + 1]) / 2);
+      const std::ptrdiff_t i = std::ptrdiff_t{2} * c;
+      out[i] += mask[i] * column[c];
+      out[i + 1] += mask[i + 1] * ((column[c] + column[c + 1]) / 2);
     }
     const int last = fine_grid.cols - 1;
     out[last] += mask[last] * column[coarse_grid.cols - 1];
@@ -51,6 +53,7 @@ template <class Real>
 
 }  // namespace
 
+// target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
 #define WEFT_TRANSFER_KERNELS(Real)                                                                      \
   template <>                                                                                            \
   WEFT_MULTIVERSION void restrict_sum(const Grid& fine_grid, const Real* fine, const Grid& coarse_grid,  \
@@ -66,5 +69,6 @@ template <class Real>
 WEFT_TRANSFER_KERNELS(float)
 WEFT_TRANSFER_KERNELS(double)
 #undef WEFT_TRANSFER_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels

@@ -191,7 +191,7 @@ TEST(FinestSendableLevel, KeepsTheWorstRecordWithinTheLimit) {
 /// Every coordinate of every frame of a run, against the simulation that made it.
 TEST(Frames, DecodeToWithinHalfAQuantum) {
   scene::Scene scene = hung_cloth();
-  scene.simulation.balls = {{{0, -0.3, 0.5}, 0.2, {0, 0, -1}, BallDescription::Motion::kinematic, 1, {}}};
+  scene.simulation.balls = {{{0, -0.3, 0.5}, 0.2, {0, 0, -1}, BallDescription::Motion::kinematic, 1, 0, {}}};
   LiveScene live(scene, protocol::Limits{});
   std::vector<std::pair<Reader, double>> viewers(3);
   viewers[0].second = 0.5;
