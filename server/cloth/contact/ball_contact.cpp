@@ -45,16 +45,17 @@ class Node {
   }
 
   /// Takes away the velocity, relative to the ball's, that points against `normal`, and what friction then
-  /// takes of the rest, with its way in the substep's seconds; the ball gets the momentum.
-  void stop_inward_velocity(Ball& ball, const Vec3& normal, double seconds) {
+  /// takes of the rest, with its way in the substep's seconds; the ball gets the momentum. True if friction
+  /// moved it.
+  bool stop_inward_velocity(Ball& ball, const Vec3& normal, double seconds) {
     const Vec3 velocity = particles_.velocity_at(row_, col_);
     const Vec3 relative = velocity - ball.velocity;
     const double inward = relative.dot(normal);
-    if (!(inward < 0)) return;
+    if (!(inward < 0)) return false;
     Vec3 lost = inward * normal;
     const Vec3 sliding = relative - lost;
-    const double speed = sliding.norm();
-    if (ball.friction > 0 && speed > 0) {
+    const double speed = ball.friction > 0 ? sliding.norm() : 0.0;
+    if (speed > 0) {
       const Vec3 held = std::min(1.0, -ball.friction * inward / speed) * sliding;
       set_position(position_ - seconds * held);
       lost += held;
@@ -66,6 +67,7 @@ class Node {
     if (ball.motion == BallDescription::Motion::dynamic) {
       ball.impulse += double(particles_.mass.at(row_, col_)) * lost;
     }
+    return speed > 0;
   }
 
  private:
@@ -105,15 +107,16 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
     bool moved = false;
     for (std::size_t b = 0; b < placed.size(); ++b) {
       if (!node.inside(placed[b])) continue;
-      node.stop_inward_velocity(balls[b], outwards(placed[b].centre, node.position()), seconds);
-      node.put_outside(placed[b], placed[b].centre, outwards(placed[b].centre, node.position()),
-                       placed[b].radius);
+      Vec3 normal = outwards(placed[b].centre, node.position());
+      const bool held = node.stop_inward_velocity(balls[b], normal, seconds);
+      if (held) normal = outwards(placed[b].centre, node.position());
+      node.put_outside(placed[b], placed[b].centre, normal, placed[b].radius);
       if (round == 0) touches.push_back({node.index(), balls[b].id});
       middle += placed[b].centre;
       ++found;
       moved = true;
     }
-    if (!moved) return found > 0;
+    if (!moved || placed.size() == 1) return found > 0;  // outside the only ball there is
   }
   // Overlapping balls hand it to each other. Along a ray away from them no ball is entered twice.
   middle /= found;
