@@ -32,9 +32,9 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   Options options;
   std::string scenes;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : "";
+    const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : std::string();
     if (arguments[i] == "--quick") {
-      scenes = "H";
+      options.scenes.assign(1, 'H');
       options.levels = {5, 6};
       options.budget = 20;
       continue;
@@ -72,7 +72,8 @@ void print_header(const EngineScene& scene) {
 void print(const Row& row) {
   const Competitor& who = row.competitor;
   const Measurement& m = row.measured;
-  const std::string structural = who.structural > 0 ? std::to_string(static_cast<int>(who.structural)) : "-";
+  std::string structural(1, '-');
+  if (who.structural > 0) structural = std::to_string(static_cast<int>(who.structural));
   std::printf("| %d | %s | %s | %s | %.3f (%.3f) | ", row.scene.side(), who.engine.c_str(),
               who.setting.c_str(), structural.c_str(), m.median_ms, m.least_ms);
   if (m.complete()) {
@@ -85,10 +86,10 @@ void print(const Row& row) {
   std::fflush(stdout);
 }
 
-void print(const std::string& title, const std::vector<Requirement>& requirements) {
+void print(const char* title, const std::vector<Requirement>& requirements) {
   for (const Requirement& r : requirements) {
     const char* verdict = !r.holds ? "-" : *r.holds ? "yes" : "**no**";
-    std::printf("| %s | %s | %s | %s | %s |\n", title.c_str(), r.what.c_str(), r.target.c_str(),
+    std::printf("| %s | %s | %s | %s | %s |\n", title, r.what.c_str(), r.target.c_str(),
                 r.measured.empty() ? "not in this run" : r.measured.c_str(), verdict);
   }
   std::fflush(stdout);
@@ -98,7 +99,7 @@ void print_requirements(const Rows& rows) {
   std::printf("\n### What must be shown\n\n65 x 65 nodes unless said; ratios of medians (of minima).\n\n");
   std::printf("| scene | what | target | measured | holds |\n|---|---|---|---|---|\n");
   for (const double damping : {2.0, 0.0}) {
-    const std::string title = damping > 0 ? "H damped" : "H undamped";
+    const char* title = damping > 0 ? "H damped" : "H undamped";
     print(title, own_requirements(rows, damping));
     if (damping > 0) print(title, energy_requirements(rows));
     print(title, comparisons(rows, damping));
