@@ -43,13 +43,17 @@ std::vector<Competitor> competitors() {
                               weft("2 substeps", kStiff, with<Bdf2>({.substeps = 2})),
                               weft("4 substeps", kStiff, with<Bdf2>({.substeps = 4})),
                               weft("8 substeps", kStiff, with<Bdf2>({.substeps = 8})),
+                              weft("16 substeps", kStiff, with<Bdf2>({.substeps = 16})),
                               weft("default", kStiff, BackwardEulerDescription{}),
                               weft("4 substeps", kStiff, with<BackwardEulerDescription>({.substeps = 4}))};
   for (const int substeps : {5, 10, 20, 40, 80}) {
     all.push_back(weft(std::to_string(substeps) + " substeps", kStiff, XpbdDescription{substeps}));
   }
   all.push_back(weft("stable substeps", kStiff, SymplecticEulerDescription{}));
+  all.push_back(weft("default", kStiffest, Bdf2{}));
   all.push_back(weft("default", kSoft, Bdf2{}));
+  all.push_back(weft("4 substeps", kSoft, with<Bdf2>({.substeps = 4})));
+  all.push_back(weft("8 substeps", kSoft, with<Bdf2>({.substeps = 8})));
   all.push_back(weft("default", kSoft, BackwardEulerDescription{}));
   all.push_back(weft("20 substeps", kSoft, XpbdDescription{20}));
   all.push_back(weft("stable substeps", kSoft, SymplecticEulerDescription{}));

@@ -20,6 +20,8 @@ std::vector<Competitor> competitors();
 
 inline constexpr double kStiff =
     50'000;  ///< N/m, the sheet that the engines' inextensible one is compared with
+inline constexpr double kStiffest =
+    500'000;                            ///< N/m, where others leave less strain than the stiff sheet has
 inline constexpr double kSoft = 5'000;  ///< N/m, Weft's default
 
 /// bdf2 in double with this many substeps, Newton's method and the linear solver carried to convergence.

@@ -27,41 +27,6 @@ double energy(const SheetState& sheet) {
   return sum;
 }
 
-/// Collects strain and speed over frames.
-class LastSecond {
- public:
-  void add(const SheetState& sheet) {
-    for (int r = 0; r < sheet.side; ++r) {
-      for (int c = 0; c < sheet.side; ++c) {
-        const int node = r * sheet.side + c;
-        if (c + 1 < sheet.side) add_edge(sheet, node, node + 1);
-        if (r + 1 < sheet.side) add_edge(sheet, node, node + sheet.side);
-        squared_speed_ += sheet.velocity[static_cast<std::size_t>(node)].squaredNorm();
-        ++nodes_;
-      }
-    }
-  }
-  void report(Measurement& measurement) const {
-    measurement.max_strain = max_;
-    measurement.mean_strain = sum_ / edges_;
-    measurement.rms_speed = std::sqrt(squared_speed_ / nodes_);
-  }
-
- private:
-  void add_edge(const SheetState& sheet, int a, int b) {
-    const double rest = kSheetSide / (sheet.side - 1);
-    const Vec3 edge =
-        sheet.position[static_cast<std::size_t>(a)] - sheet.position[static_cast<std::size_t>(b)];
-    const double strain = std::abs(edge.norm() - rest) / rest;
-    max_ = std::max(max_, strain);
-    sum_ += strain;
-    ++edges_;
-  }
-
-  double max_ = 0, sum_ = 0, squared_speed_ = 0;
-  double edges_ = 0, nodes_ = 0;
-};
-
 bool has_exploded(const SheetState& sheet) {
   constexpr double kLargestBox = 8.0;
   Eigen::AlignedBox3d box;
@@ -87,36 +52,68 @@ std::string Measurement::state() const {
   return lost ? "LOST BALL" : "ok";
 }
 
-Measurement measure(Engine& engine, const EngineScene& scene, double budget) {
-  constexpr int kTrial = 5;           // frames that tell how long the rest will take
-  constexpr double kShortRun = 1000;  // ms
-  Measurement measurement;
-  SheetState sheet;
-  engine.read(sheet);
-  const double start_energy = energy(sheet);
-  LastSecond last_second;
-  std::vector<double> times;
-  double spent = 0;
-  bool short_run = false;
-  while (measurement.frames < kFrames && !measurement.exploded) {
-    const double begin = now();
-    engine.step();
-    times.push_back(now() - begin);
-    spent += times.back();
-    ++measurement.frames;
-    engine.read(sheet);
-    measurement.exploded = has_exploded(sheet);
-    measurement.energy.push_back(energy(sheet) - start_energy);
-    if (measurement.frames > kFrames - kFramesPerSecond) last_second.add(sheet);
-    if (measurement.frames == kTrial) short_run = spent / kTrial * kFrames > 1e3 * budget;
-    if (short_run && spent > kShortRun) break;
+void LastSecond::add(const SheetState& sheet) {
+  for (int r = 0; r < sheet.side; ++r) {
+    for (int c = 0; c < sheet.side; ++c) {
+      const int node = r * sheet.side + c;
+      if (c + 1 < sheet.side) add_edge(sheet, node, node + 1);
+      if (r + 1 < sheet.side) add_edge(sheet, node, node + sheet.side);
+      squared_speed_ += sheet.velocity[static_cast<std::size_t>(node)].squaredNorm();
+      ++nodes_;
+    }
   }
-  measurement.median_ms = median(times);
-  measurement.least_ms = *std::min_element(times.begin(), times.end());
-  if (!measurement.complete()) return measurement;
-  last_second.report(measurement);
-  measurement.lost = scene.name == 'B' && centre_height(sheet) < -kSheetSide;
-  return measurement;
+}
+
+void LastSecond::add_edge(const SheetState& sheet, int a, int b) {
+  const double rest = kSheetSide / (sheet.side - 1);
+  const Vec3 edge = sheet.position[static_cast<std::size_t>(a)] - sheet.position[static_cast<std::size_t>(b)];
+  const double strain = std::abs(edge.norm() - rest) / rest;
+  max_ = std::max(max_, strain);
+  sum_ += strain;
+  ++edges_;
+}
+
+void LastSecond::report(Measurement& measurement) const {
+  measurement.max_strain = max_;
+  measurement.mean_strain = sum_ / edges_;
+  measurement.rms_speed = std::sqrt(squared_speed_ / nodes_);
+}
+
+Trial::Trial(std::unique_ptr<Engine> engine, const EngineScene& scene, double budget)
+    : engine_(std::move(engine)), scene_(scene), budget_(budget) {
+  engine_->read(sheet_);
+  start_energy_ = energy(sheet_);
+}
+
+void Trial::run(int frames) {
+  for (int i = 0; i < frames && !finished_; ++i) step();
+}
+
+void Trial::step() {
+  constexpr int kTrialFrames = 5;     // they tell how long the rest will take
+  constexpr double kShortRun = 1000;  // ms
+  const double begin = now();
+  engine_->step();
+  times_.push_back(now() - begin);
+  spent_ += times_.back();
+  engine_->read(sheet_);
+  measured_.exploded = has_exploded(sheet_);
+  measured_.energy.push_back(energy(sheet_) - start_energy_);
+  measured_.frames = static_cast<int>(times_.size());
+  if (measured_.frames > kFrames - kFramesPerSecond) last_second_.add(sheet_);
+  const bool too_long = spent_ / measured_.frames * kFrames > 1e3 * budget_;
+  finished_ = measured_.exploded || measured_.frames == kFrames ||
+              (too_long && measured_.frames >= kTrialFrames && spent_ > kShortRun);
+}
+
+Measurement Trial::measurement() const {
+  Measurement result = measured_;
+  result.median_ms = median(times_);
+  result.least_ms = *std::min_element(times_.begin(), times_.end());
+  if (!result.complete()) return result;
+  last_second_.report(result);
+  result.lost = scene_.name == 'B' && centre_height(sheet_) < -kSheetSide;
+  return result;
 }
 
 }  // namespace weft::bench

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "engines/engine.h"
@@ -26,9 +27,43 @@ struct Measurement {
   std::string state() const;
 };
 
-/// Steps the engine, made for that scene, for 5 s, timing each frame alone. If that would take more than
-/// `budget` seconds of CPU time only the frames of about a second are run: enough to time them, not to see
-/// how the sheet ends.
-Measurement measure(Engine& engine, const EngineScene& scene, double budget);
+/// Adds strain and speed up over the frames of the last second.
+class LastSecond {
+ public:
+  void add(const SheetState& sheet);
+  void report(Measurement& measurement) const;
+
+ private:
+  void add_edge(const SheetState& sheet, int a, int b);
+
+  double max_ = 0, sum_ = 0, squared_speed_ = 0;
+  double edges_ = 0, nodes_ = 0;  ///< so many summands
+};
+
+/// One engine on its way through a scene, each frame timed alone.
+class Trial {
+ public:
+  /// If the 5 s would take more than `budget` seconds of CPU time only the frames of about a second are run:
+  /// enough to time them, not to see how the sheet ends.
+  Trial(std::unique_ptr<Engine> engine, const EngineScene& scene, double budget);
+
+  /// So many frames more, fewer at the end.
+  void run(int frames);
+  Measurement measurement() const;
+
+ private:
+  void step();
+
+  std::unique_ptr<Engine> engine_;
+  EngineScene scene_;
+  double budget_;
+  SheetState sheet_;
+  double start_energy_;
+  std::vector<double> times_;  ///< ms
+  double spent_ = 0;           ///< ms
+  bool finished_ = false;
+  LastSecond last_second_;
+  Measurement measured_;
+};
 
 }  // namespace weft::bench

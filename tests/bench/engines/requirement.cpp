@@ -79,7 +79,9 @@ std::vector<Requirement> energy_requirements(const Rows& rows) {
   if (bdf2 == nullptr || !bdf2->complete()) return {at_end, departure, motion};
 
   const auto converged = [&](int substeps) {
-    return measure(*make_reference(scene, substeps), scene, std::numeric_limits<double>::infinity());
+    Trial trial(make_reference(scene, substeps), scene, std::numeric_limits<double>::infinity());
+    trial.run(kFrames);
+    return trial.measurement();
   };
   const Measurement reference = converged(kSubsteps), half = converged(kSubsteps / 2);
   const auto departs = [&](const Measurement& m) {
