@@ -6,7 +6,7 @@ build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libboost-d
 # To run the image: the shared libraries of the above.
 runtime_packages=(libfcl0.7 libspdlog1.10 libtinygltf2d)
 # To test it: C++ test libraries, the Python client's only dependency, a browser, an image reader.
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libvalijson-dev
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapidcheck-dev libvalijson-dev
                python3 python3-websockets chromium fonts-dejavu-core)
 # To check it: format and lint.
 lint_packages=(clang clang-format clang-tidy)

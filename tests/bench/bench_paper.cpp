@@ -2,8 +2,6 @@
 /// the same substeps in the same precision. Prints a Markdown table; the paper's figures (its section 4)
 /// stand beside.
 ///   bench_paper [REPETITIONS]
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +9,7 @@
 
 #include "baseline.h"
 #include "scene/scene.h"
+#include "timing.h"
 
 namespace weft::bench {
 namespace {
@@ -19,19 +18,6 @@ namespace {
 constexpr double kLeastRepetition = 30.0;
 /// Simulated before measuring, so that the cloth hangs, flutters and touches the ball, s.
 constexpr double kWarmUp = 4.0;
-
-/// CPU time of this thread, ms: both run in one thread, and other programs on the machine do not count.
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Milliseconds of one frame, over `frames` of them.
 template <class Stepped>
