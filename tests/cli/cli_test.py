@@ -13,7 +13,7 @@ WEFT = os.environ["WEFT_BINARY"]
 BAD_SCENES = pathlib.Path(os.environ["WEFT_BAD_SCENES"])
 LIMIT_S = 120
 
-PRESETS = ["flag", "curtain", "tablecloth", "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
+PRESETS = ["flag", "curtain", "tablecloth", "swing", "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
 
 
 def weft(*arguments: str) -> subprocess.CompletedProcess:
