@@ -32,6 +32,12 @@ Trajectory extrapolated(const Trajectory& coarse, const Trajectory& fine) {
   return answer;
 }
 
+/// What a run of half the step will take: at most twice as long, as the last two runs had it.
+double next_seconds(const std::vector<Rung>& rungs, double last) {
+  if (rungs.empty() || rungs.back().seconds <= 0) return 2 * last;
+  return last * std::clamp(last / rungs.back().seconds, 1.0, 2.0);
+}
+
 }  // namespace
 
 double Reference::reduction() const {
@@ -58,8 +64,9 @@ Reference find_reference(const SimulationDescription& description, int level, in
     const double begin = allowance.now();
     Trajectory finer = run(substeps, 0);
     Rung rung{substeps, allowance.now() - begin, 0, {}};
+    const double next = next_seconds(reference.rungs, rung.seconds);
     if (!finer.complete) {  // coarse steps may go bad where finer ones do not
-      if (2 * rung.seconds > allowance.left()) break;
+      if (next > allowance.left()) break;
       continue;
     }
     if (reference.rungs.empty()) {
@@ -79,7 +86,7 @@ Reference find_reference(const SimulationDescription& description, int level, in
     coarser = std::move(finer);
     if (!reference.usable()) continue;
     const double moved = reference.chaotic ? rung.change.mean_shape : rung.change.rms_position;
-    if (moved < target || 2 * rung.seconds > allowance.left()) break;
+    if (moved < target || next > allowance.left()) break;
   }
   return reference;
 }

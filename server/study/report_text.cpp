@@ -20,6 +20,8 @@ format(const char* form, ...) {
   return text;
 }
 
+const char* judged_name(const Study& study) { return study.chaotic ? "mean shape" : "rms position"; }
+
 std::string share(const std::optional<double>& value) {
   return value ? format("%9.2g", *value) : "        -";
 }
@@ -53,11 +55,11 @@ std::string trust(const Study& study, const LevelStudy& level) {
   const Reference& reference = level.reference;
   if (!reference.usable()) return "no reference: no step size stayed finite.";
   const double moved = study.judged(reference.change());
-  const char* what = study.chaotic ? "mean shape" : "rms position";
-  std::string text = format(
-      "reference: BDF2 in double precision, extrapolated from %d and %d substeps; the last doubling moved it "
-      "by %.1e (%s)",
-      reference.rungs.back().substeps / 2, reference.rungs.back().substeps, moved, what);
+  const int substeps = reference.rungs.back().substeps;
+  std::string text = "reference: BDF2 in double precision, ";
+  text += reference.chaotic ? format("%d substeps", substeps)
+                            : format("extrapolated from %d and %d substeps", substeps / 2, substeps);
+  text += format("; the last doubling moved it by %.1e (%s)", moved, judged_name(study));
   if (const double reduction = reference.reduction(); reduction > 0 && !study.chaotic) {
     text += format("; runs of half the step come %.1f times closer each time", reduction);
   }
@@ -75,12 +77,14 @@ std::string trust(const Study& study, const LevelStudy& level) {
   if (const auto swings = frequency(reference.answer))
     text += format(". Its centre swings at %.4g Hz", *swings);
   if (smallest > 0) {
-    text += moved <= smallest / 10
-                ? format(". Converged: a tenth of the smallest error here, %.1e, or less", smallest)
-                : format(
-                      ". Not converged as far as the smallest error here, %.1e: errors below %.1e are the "
-                      "reference's own; a larger budget takes it further",
-                      smallest, 10 * moved);
+    text +=
+        moved <= smallest / 10
+            ? format(". Converged: a tenth of the smallest error here, %.1e, or less", smallest)
+            : format(
+                  ". Not converged beyond doubt: the smallest error here is %.1e, and what is near %.1e or "
+                  "below may be the reference's own; %s",
+                  smallest, moved,
+                  study.chaotic ? "a longer --duration averages more" : "a larger --budget takes it further");
   }
   return text + ".";
 }
@@ -91,8 +95,8 @@ std::string table(const Study& study) {
   for (const LevelStudy& level : study.levels) {
     text += format("level %d: ", level.level) + trust(study, level) + "\n";
     if (&level != &study.levels.back() && level.reference.usable()) {
-      text += format("grid: %.1e from level %d's answer (rms position)\n", level.space.rms_position,
-                     study.levels.back().level);
+      text += format("grid: %.1e from level %d's answer (%s)\n", study.judged(level.space),
+                     study.levels.back().level, judged_name(study));
     }
     text += format("   %-17s %-34s %8s %9s %9s %9s %9s %9s %9s %9s\n", "integrator", "setting", "ms/frame",
                    "rms", "max", "shape", "strain", "energy", "frequency", "total rms");

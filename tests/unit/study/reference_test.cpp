@@ -49,10 +49,10 @@ TEST(Reference, StopsWhenTheNextDoublingWouldNotFit) {
   const auto tick = [&seconds] { seconds += 1; };  // every frame takes a second, whatever its substeps
   const Allowance allowance{[&seconds] { return seconds; }, 60};
   const Reference reference = find_reference(swing(), 3, 10, 0, allowance, tick);
-  // 10 s for 2 substeps, 10 for 4 and 10 for its disturbed start; then 20 must be left for each: 8, 16.
-  ASSERT_EQ(reference.rungs.size(), 4u);
-  EXPECT_EQ(reference.rungs.back().substeps, 16);
-  EXPECT_EQ(seconds, 50);
+  // 10 s for 2 substeps, 10 for 4 and 10 for its disturbed start; 8, 16 and 32 take 10 each.
+  ASSERT_EQ(reference.rungs.size(), 5u);
+  EXPECT_EQ(reference.rungs.back().substeps, 32);
+  EXPECT_EQ(seconds, 60);
 }
 
 TEST(Reference, RunsTwoStepSizesWhateverTheAllowance) {
