@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   weft::cli::add_serve(app, exit_code);
   weft::cli::add_run(app, exit_code);
+  weft::cli::add_cost(app, exit_code);
   weft::cli::add_check(app, exit_code);
   weft::cli::add_client(app, exit_code);
   weft::cli::add_version(app, exit_code);

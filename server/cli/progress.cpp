@@ -12,8 +12,11 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 }  // namespace
 
-Progress::Progress(std::string label, int total)
-    : label_(std::move(label)), total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::string label, int total, std::string unit)
+    : label_(std::move(label)),
+      total_(total),
+      unit_(std::move(unit)),
+      terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (terminal_) std::fputs(kClearLine, stderr);
@@ -28,8 +31,8 @@ void Progress::show(int done) {
   const int filled = static_cast<int>(static_cast<long long>(kWidth) * done / total_);
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kWidth, '.');
-  std::fprintf(stderr, "%s%s [%s] %d/%d frames, %.0f s left", kClearLine, label_.c_str(), bar.c_str(), done,
-               total_, elapsed * (total_ - done) / done);
+  std::fprintf(stderr, "%s%s [%s] %d/%d %s, %.0f s left", kClearLine, label_.c_str(), bar.c_str(), done,
+               total_, unit_.c_str(), elapsed * (total_ - done) / done);
   std::fflush(stderr);
 }
 

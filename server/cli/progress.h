@@ -7,7 +7,8 @@ namespace weft::cli {
 /// A progress bar on standard error, if that is a terminal; otherwise nothing.
 class Progress {
  public:
-  Progress(std::string label, int total);
+  /// `unit` names what is counted.
+  Progress(std::string label, int total, std::string unit = "frames");
   /// Leaves the cursor on an empty line.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -20,6 +21,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string label_;
   int total_;
+  std::string unit_;
   bool terminal_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};

@@ -1,4 +1,4 @@
-"""Holds the order of the house: cli > net > host > scene > cloth, and net, host > protocol.
+"""Holds the order of the house: cli > net > host > study > scene > cloth, and net, host > protocol.
 
 Reads the #include lines of server/ and protocol/. A part may use itself and what lies below it; cloth and protocol
 know nothing of each other or of anything above, and cloth knows no file, no socket, no JSON.
@@ -15,9 +15,10 @@ ALLOWED = {
     "cloth": {"cloth"},
     "protocol": {"protocol"},
     "scene": {"scene", "cloth"},
-    "host": {"host", "scene", "cloth", "protocol"},
-    "net": {"net", "host", "scene", "cloth", "protocol"},
-    "cli": {"cli", "net", "host", "scene", "cloth", "protocol"},
+    "study": {"study", "scene", "cloth"},
+    "host": {"host", "study", "scene", "cloth", "protocol"},
+    "net": {"net", "host", "study", "scene", "cloth", "protocol"},
+    "cli": {"cli", "net", "host", "study", "scene", "cloth", "protocol"},
 }
 
 # Headers that would bring files, sockets, JSON or logging into the simulation; sockets and logging into the formats.
@@ -26,6 +27,7 @@ FORBIDDEN_LIBRARIES = {
               "netinet/"),
     "protocol": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "Eigen/", "sys/", "netinet/"),
     "scene": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "sys/", "netinet/"),
+    "study": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "fstream", "filesystem", "sys/", "netinet/"),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -110,7 +112,8 @@ class SelfTest(unittest.TestCase):
 
     def test_an_include_upwards_is_caught(self):
         for part, name in (("cloth", "scene/scene.h"), ("cloth", "protocol/frame.h"), ("scene", "host/host.h"),
-                           ("scene", "protocol/frame.h"), ("host", "net/server.h"), ("net", "cli/commands.h")):
+                           ("scene", "protocol/frame.h"), ("study", "host/host.h"), ("scene", "study/study.h"),
+                           ("host", "net/server.h"), ("net", "cli/commands.h")):
             found = self.check({f"server/{part}/a.cpp": f'#include <vector>\n  #  include "{name}"\n'})
             upper = name.split("/")[0]
             self.assertEqual(found, [f"server/{part}/a.cpp:2: {part} must not know {upper} ({name})"])

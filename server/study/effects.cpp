@@ -1,0 +1,103 @@
+#include "study/effects.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <numeric>
+
+#include "cloth/simulation.h"
+#include "study/trajectory.h"
+
+namespace weft::study {
+namespace {
+
+/// Mean of the middle half: as steady as the median, finer than the clock's tick.
+double middle_mean(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
+  const auto first = values.begin() + quarter, last = values.end() - quarter;
+  return std::accumulate(first, last, 0.0) / static_cast<double>(last - first);
+}
+
+double middle_difference(const std::vector<double>& more, std::vector<double> less) {
+  std::transform(more.begin(), more.end(), less.begin(), less.begin(), std::minus<>());
+  return middle_mean(std::move(less));
+}
+
+/// The scene with some of its effects, and what its frames took, ms.
+struct Variant {
+  explicit Variant(const SimulationDescription& description, int level)
+      : simulation(at_level<float>(description, level)) {}
+
+  void begin_at(const Simulation<float>& other) {
+    for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
+      simulation.cloths()[i].particles() = other.cloths()[i].particles();
+    }
+  }
+  void step() {
+    const std::clock_t begin = std::clock();
+    simulation.step();
+    frames.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  }
+
+  Simulation<float> simulation;
+  std::vector<double> frames;
+};
+
+std::string row(std::string_view name, double milliseconds, double all) {
+  char text[100];
+  std::snprintf(text, sizeof text, "  %-24.*s %9.4f %7.1f %%\n", static_cast<int>(name.size()), name.data(),
+                milliseconds, all > 0 ? 100 * milliseconds / all : 0);
+  return text;
+}
+
+}  // namespace
+
+EffectsStudy study_effects(const SimulationDescription& description, int level, int frames,
+                           const std::function<void()>& watch) {
+  const std::size_t effects = description.effects.size();
+  std::vector<Variant> variants;  // all, without the first, ..., without the last, none
+  variants.reserve(effects + 2);
+  variants.emplace_back(description, level);
+  for (std::size_t i = 0; i < effects; ++i) {
+    SimulationDescription without = description;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
+    variants.emplace_back(without, level);
+  }
+  SimulationDescription bare = description;
+  bare.effects.clear();
+  variants.emplace_back(bare, level);
+  Variant &all = variants.front(), &none = variants.back();
+
+  std::vector<double> contact;
+  for (int frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 1; i < variants.size(); ++i) variants[i].begin_at(all.simulation);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      variants[(i + static_cast<std::size_t>(frame)) % variants.size()].step();
+    }
+    contact.push_back(1e3 * all.simulation.profile().contact);
+    watch();
+  }
+
+  EffectsStudy study;
+  study.level = level;
+  study.all = middle_mean(all.frames);
+  for (std::size_t i = 0; i < effects; ++i) {
+    const auto name =
+        std::visit([](const auto& each) { return std::string_view(each.kName); }, description.effects[i]);
+    study.effects.push_back({name, middle_difference(all.frames, variants[i + 1].frames)});
+  }
+  study.contact = middle_mean(contact);
+  study.rest = middle_mean(none.frames) - study.contact;
+  return study;
+}
+
+std::string table(const EffectsStudy& study) {
+  std::string text = "level " + std::to_string(study.level) + "                     ms/frame     share\n";
+  for (const EffectCost& effect : study.effects) text += row(effect.name, effect.milliseconds, study.all);
+  text += row("contact", study.contact, study.all);
+  text += row("springs, integrator", study.rest, study.all);
+  return text + row("all", study.all, study.all);
+}
+
+}  // namespace weft::study

@@ -1,0 +1,36 @@
+#pragma once
+/// What each effect of a scene costs.
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cloth/description.h"
+
+namespace weft::study {
+
+struct EffectCost {
+  std::string_view name;
+  double milliseconds = 0;  ///< a frame: what the scene takes more with it than without it
+};
+
+/// A frame's processor time at one level, ms, and where it goes.
+struct EffectsStudy {
+  int level = 0;
+  double all = 0;                   ///< the scene as it is
+  std::vector<EffectCost> effects;  ///< in the scene's order
+  double contact = 0;
+  double rest = 0;  ///< the scene without effects, less contact: springs, integrator, check
+};
+
+/// Steps the scene, the scene without each effect and the scene without any, in single precision and in
+/// turns: each frame begins from the full scene's state and is taken by all of them, in changing order, so
+/// that noise and the processor's moods meet all alike. Each figure is the mean of the middle half of the
+/// frames' differences.
+EffectsStudy study_effects(const SimulationDescription& description, int level, int frames,
+                           const std::function<void()>& watch);
+
+/// Plain text.
+std::string table(const EffectsStudy& study);
+
+}  // namespace weft::study

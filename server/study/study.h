@@ -1,0 +1,66 @@
+#pragma once
+/// What accuracy costs: one scene over levels, integrators and settings, each against the same converged
+/// answer.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "study/candidate.h"
+#include "study/reference.h"
+
+namespace weft::study {
+
+struct StudyPlan {
+  std::vector<int> levels;  ///< ascending, not empty
+  std::vector<std::string_view> integrators;
+  int frames = 120;    ///< steps of the scene; at most kMaxFrames
+  double budget = 60;  ///< wall time for everything, s: half for the references, then the runs. Two doublings
+                       ///< a level and the run in hand are finished whatever they take.
+};
+
+/// One candidate at one level, in single precision, as in service.
+struct Run {
+  enum class Status {
+    done,
+    skipped,    ///< did not fit into what was left of the budget
+    not_finite  ///< its positions or velocities went bad
+  };
+  Candidate candidate;
+  Status status = Status::skipped;
+  double milliseconds = 0;  ///< a frame, median of the steps alone
+  int substeps = 0;         ///< a frame
+  double max_strain = 0;    ///< over all frames and springs
+  Errors time;              ///< against this level's reference: what the steps cost
+  Errors total;             ///< against the finest level's reference, at the nodes shared: steps and grid
+  bool best = false;        ///< no other run of its level is at least as fast and at least as accurate
+};
+
+struct LevelStudy {
+  int level = 0;
+  Reference reference;
+  Errors space;  ///< of this level's reference against the finest level's: what the grid costs
+  std::vector<Run> runs;
+};
+
+struct Study {
+  int frames = 0;
+  double time_step = 0;  ///< s
+  double seconds = 0;    ///< wall time of the whole study
+  bool chaotic = false;  ///< at some level: then errors are judged by mean_shape, else by rms_position
+  std::vector<LevelStudy> levels;
+
+  double judged(const Errors& errors) const { return chaotic ? errors.mean_shape : errors.rms_position; }
+  /// Some run stayed finite and could be compared.
+  bool any_done() const;
+};
+
+/// `clock` gives seconds, never descending; a real study takes steady_clock. `watch` is called after every
+/// frame of every run.
+Study study_cost(const SimulationDescription& description, const StudyPlan& plan,
+                 const std::function<double()>& clock, const std::function<void()>& watch);
+
+/// Marks the Pareto front of a level's done runs. Errors below `floor` count as `floor`: what the reference
+/// itself cannot tell apart is not rewarded.
+void mark_best(const Study& study, double floor, std::vector<Run>& runs);
+
+}  // namespace weft::study

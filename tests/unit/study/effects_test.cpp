@@ -1,0 +1,43 @@
+#include "study/effects.h"
+
+#include "fixtures.h"
+
+namespace weft::study::test {
+namespace {
+
+// What each costs is the machine's affair: only what is listed, and that it adds up, is tested.
+TEST(Effects, AreTheScenesInItsOrder) {
+  SimulationDescription description = swing();
+  description.effects = {AerodynamicsEffect{}, GravityEffect{}};
+  int frames = 0;
+  const EffectsStudy study = study_effects(description, 4, 8, [&] { ++frames; });
+  EXPECT_EQ(frames, 8);
+  EXPECT_EQ(study.level, 4);
+  ASSERT_EQ(study.effects.size(), 2u);
+  EXPECT_EQ(study.effects[0].name, "aerodynamics");
+  EXPECT_EQ(study.effects[1].name, "gravity");
+  EXPECT_GT(study.all, 0);
+  EXPECT_GT(study.rest, 0);
+  EXPECT_EQ(study.contact, 0);  // no balls
+}
+
+TEST(Effects, ASceneWithoutAnyIsAllRest) {
+  SimulationDescription description = swing();
+  description.effects.clear();
+  const EffectsStudy study = study_effects(description, 3, 4, kNothing);
+  EXPECT_TRUE(study.effects.empty());
+  EXPECT_GT(study.all, 0);
+}
+
+TEST(Effects, TableHasALineEach) {
+  const std::string text = table({5, 2.0, {{"gravity", 0.5}}, 0.25, 1.25});
+  EXPECT_EQ(text,
+            "level 5                     ms/frame     share\n"
+            "  gravity                     0.5000    25.0 %\n"
+            "  contact                     0.2500    12.5 %\n"
+            "  springs, integrator         1.2500    62.5 %\n"
+            "  all                         2.0000   100.0 %\n");
+}
+
+}  // namespace
+}  // namespace weft::study::test
