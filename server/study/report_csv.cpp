@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view kHeader =
     "scene,level,integrator,setting,present,status,best,ms_per_frame,substeps,max_strain,rms_error,max_error,"
     "shape_error,strain_error,energy_error,frequency_error,total_rms_error,total_max_error,total_shape_error,"
-    "space_rms_error,reference_substeps,reference_change\n";
+    "space_rms_error,reference_substeps,reference_change,rounding_change\n";
 
 /// Fields of one line, parted by commas.
 class Line {
@@ -59,6 +59,7 @@ std::string line_of(const Heading& heading, const LevelStudy& level, const Run& 
   line.number_if(usable, level.space.rms_position);
   line.number(usable ? level.reference.rungs.back().substeps : 0);
   line.number_if(usable, usable ? level.reference.change().rms_position : 0);
+  line.number_if(usable, level.reference.rounding.rms_position);
   return std::move(line).end();
 }
 

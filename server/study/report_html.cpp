@@ -38,6 +38,7 @@ json json_of(const Study& study, const LevelStudy& level) {
   for (const Run& run : level.runs) all["runs"].push_back(json_of(run));
   if (!level.reference.usable()) return all;
   all["change"] = json_of(level.reference.change());
+  all["rounding"] = json_of(level.reference.rounding);
   all["space"] = json_of(level.space);
   return all;
 }
@@ -55,7 +56,7 @@ std::string html(const Study& study, const Heading& heading) {
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {
     text.replace(at, 1, "\\u003c");  // no name ends the script
   }
-  std::string page(kReportPage);
+  std::string page(report_page());
   constexpr std::string_view kPlace = "/*study*/null";
   return page.replace(page.find(kPlace), kPlace.size(), text);
 }

@@ -4,6 +4,6 @@
 namespace weft::study {
 
 /// report.html; the study's data takes the place of "/*study*/null".
-extern const std::string_view kReportPage;
+std::string_view report_page();
 
 }  // namespace weft::study

@@ -14,8 +14,8 @@ struct StudyPlan {
   std::vector<int> levels;  ///< ascending, not empty
   std::vector<std::string_view> integrators;
   int frames = 120;    ///< steps of the scene; at most kMaxFrames
-  double budget = 60;  ///< wall time for everything, s: half for the references, then the runs. Two doublings
-                       ///< a level and the run in hand are finished whatever they take.
+  double budget = 60;  ///< wall time for everything, s: three fifths for the references, then the runs. Two
+                       ///< doublings a level and the run in hand are finished whatever they take.
 };
 
 /// One candidate at one level, in single precision, as in service.
@@ -50,6 +50,9 @@ struct Study {
   std::vector<LevelStudy> levels;
 
   double judged(const Errors& errors) const { return chaotic ? errors.mean_shape : errors.rms_position; }
+  /// Errors below this say nothing: by so much the reference moved last, or rounding moves it. Judged as
+  /// errors are.
+  double floor(const Reference& reference) const;
   /// Some run stayed finite and could be compared.
   bool any_done() const;
 };
