@@ -8,7 +8,7 @@ namespace weft {
 /// step is held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along
 /// with the ball by Coulomb friction: a force of at most friction times the normal force, that of the step
 /// before. What little the spring gives, and nodes that arrive, BallContact::resolve puts right after the
-/// step; a node that is pulled off is free in the next.
+/// step; a node whose ball leaves it is free.
 template <class Real>
 class ContactConstraints {
  public:
