@@ -164,6 +164,13 @@ void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> 
 }
 
 template <class Real>
+kernels::SpringModelError Springs<Real>::model_error(const Grid& grid,
+                                                     kernels::Components<const Real> position,
+                                                     kernels::Components<const Real> change) const {
+  return kernels::spring_model_error(lattice(grid), grid, position, change);
+}
+
+template <class Real>
 bool Springs<Real>::has_bending() const {
   return std::any_of(families_.begin(), families_.end(),
                      [](const SpringFamily& family) { return kind_of(family) == kBendingU; });

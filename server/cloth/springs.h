@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "cloth/kernels/link_kernels.h"
-#include "cloth/kernels/spring_kernels.h"
+#include "cloth/kernels/spring_energy_kernels.h"
 #include "cloth/material.h"
 #include "cloth/particles.h"
 #include "cloth/spring_family.h"
@@ -39,6 +39,10 @@ class Springs {
   /// Linearises every spring at `position`, given with its rows of zeros (kernels/link_kernels.h).
   void linearise(const Grid& grid, kernels::Components<const Real> position,
                  const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const;
+  /// How far the springs' energy after `change` is from what linearise() at `position` promised; both fields
+  /// with their rows of zeros.
+  kernels::SpringModelError model_error(const Grid& grid, kernels::Components<const Real> position,
+                                        kernels::Components<const Real> change) const;
   bool has_bending() const;
   /// Stiffness of all springs at a node away from the border, N/m.
   double node_stiffness() const;

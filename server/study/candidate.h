@@ -23,9 +23,9 @@ std::string setting_of(const IntegratorDescription& integrator);
 
 /// The scene's own choice, then each named integrator's settings in rounds: the first round has one setting
 /// of every integrator, cheapest first, so that a study cut short has something of each. symplectic_euler: 1,
-/// 2 and 4 times the fewest stable substeps; xpbd: 5 to 160 substeps; implicit ones: 1 to 16 substeps, first
-/// with one loosely solved linearisation each, as scenes have it, then with two tightly solved ones. `names`
-/// are of integrator_names().
+/// 2 and 4 times the fewest stable substeps; xpbd: 5 to 160 substeps; implicit ones: 1 to 16 substeps,
+/// first with one loosely solved linearisation each, then as scenes have it, then with three tightly solved
+/// ones. `names` are of integrator_names().
 std::vector<Candidate> candidates(const std::vector<std::string_view>& names,
                                   const IntegratorDescription& present);
 

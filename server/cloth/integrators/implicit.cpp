@@ -6,6 +6,11 @@
 namespace weft {
 namespace {
 
+/// Newton iterations added at most when those asked for bring in energy. Half a turn a frame takes one.
+constexpr int kSpareIterations = 3;
+/// A shorter share of a change is none.
+constexpr double kSmallestShare = 1e-4;
+
 using Clock = std::chrono::steady_clock;
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -66,16 +71,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     }
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     begin_substep(particles, h);
-    for (int iteration = 0; iteration < parameters_.newton_iterations; ++iteration) {
-      assemble(particles, forces);
-      report.linear_iterations += solve(particles, h).iterations;
-      kernels::move_nodes<Real>(
-          state_->step,
-          {state_->system.finest().free(), kernels::components(state_->start), state_->change, state_->move,
-           kernels::components(particles.position), kernels::components(particles.velocity)},
-          particles.grid().size());
-      clear(state_->change, particles.grid().size());
-    }
+    report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
@@ -103,13 +99,17 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, double h) {
   const std::size_t count = particles.grid().size();
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
   s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
-  kernels::begin_backward_step<Real>(s.second_order, velocity, s.last_move, s.last_velocity,
-                                     static_cast<Real>(h), s.step, count);
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
-  // The guess: every node goes on as it went.
-  clear(s.move, count);
-  kernels::scaled_difference<Real>(velocity, s.move, static_cast<Real>(h), s.change, count);
+  begin_formula(h);
+  // The error allowed, as a kinetic energy: of the speed the nodes have or, at rest, of what gravity gives
+  // them in a substep.
+  const double speed_given = standard_gravity().norm() * h;
+  double mass = 0;
+  for (const Real node : particles.mass.values()) mass += static_cast<double>(node);
+  const double scale = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid()) +
+                       mass * speed_given * speed_given;
+  s.allowed_error = parameters_.tolerance * parameters_.tolerance * scale;
 }
 
 template <class Real>
@@ -145,19 +145,84 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
 }
 
 template <class Real>
-LinearSolveReport Implicit<Real>::solve(const Particles<Real>& particles, double h) {
+int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& forces, double h) {
   State& s = *state_;
-  // The error allowed, as a kinetic energy: of the speed the nodes have or, at rest, of what gravity gives
-  // them in a substep.
-  const Grid& grid = particles.grid();
-  const double speed_given = standard_gravity().norm() * h;
-  double mass = 0;
-  for (const Real node : particles.mass.values()) mass += static_cast<double>(node);
-  const double scale =
-      kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(s.start_velocity), grid) +
-      mass * speed_given * speed_given;
-  return s.solver.solve(s.system, s.b, s.change, parameters_.tolerance * parameters_.tolerance * scale,
-                        parameters_.linear_iterations);
+  guess_move(h);
+  NewtonReport report = iterate(particles, forces, &Implicit::whole_change);
+  if (report.brought_in <= 0) return report.linear_iterations;
+  const std::size_t count = particles.grid().size();
+  copy<Real>(kernels::components(s.start), kernels::components(particles.position), count);
+  copy<Real>(kernels::components(s.start_velocity), kernels::components(particles.velocity), count);
+  // Past motion says little about what follows: from here on as backward Euler, the next substep too.
+  s.smooth = false;
+  std::fill_n(s.second_order, count, Real(0));
+  begin_formula(h);
+  guess_move(h);
+  return report.linear_iterations + iterate(particles, forces, &Implicit::searched_change).linear_iterations;
+}
+
+template <class Real>
+void Implicit<Real>::begin_formula(double h) {
+  State& s = *state_;
+  kernels::begin_backward_step<Real>(s.second_order, kernels::components(s.start_velocity), s.last_move,
+                                     s.last_velocity, static_cast<Real>(h), s.step, s.system.grid().size());
+}
+
+template <class Real>
+void Implicit<Real>::guess_move(double h) {
+  // Every node goes on as it went.
+  State& s = *state_;
+  const std::size_t count = s.system.grid().size();
+  clear(s.move, count);
+  kernels::scaled_difference<Real>(kernels::components(s.start_velocity), s.move, static_cast<Real>(h),
+                                   s.change, count);
+}
+
+template <class Real>
+auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change)
+    -> NewtonReport {
+  State& s = *state_;
+  const std::size_t count = particles.grid().size();
+  NewtonReport report;
+  for (int left = parameters_.newton_iterations; left > -kSpareIterations; --left) {
+    assemble(particles, forces);
+    const LinearSolveReport solved =
+        s.solver.solve(s.system, s.b, s.change, s.allowed_error, parameters_.linear_iterations);
+    const ChangeReport changed = (this->*change)(*forces.springs, solved.decrease);
+    kernels::move_nodes<Real>(
+        s.step,
+        {s.system.finest().free(), kernels::components(s.start), s.change, s.move,
+         kernels::components(particles.position), kernels::components(particles.velocity)},
+        count);
+    clear(s.change, count);
+    report.linear_iterations += solved.iterations;
+    report.brought_in += changed.brought_in;
+    if (report.brought_in <= 0 && (left <= 1 || changed.error <= s.allowed_error)) break;
+  }
+  return report;
+}
+
+template <class Real>
+auto Implicit<Real>::whole_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+  const kernels::SpringModelError error =
+      springs.model_error(state_->system.grid(), state_->position, state_->change);
+  return {error.sum - decrease, error.magnitude};
+}
+
+template <class Real>
+auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+  const kernels::Components<Real> change = state_->change;
+  for (double share = 1; share > kSmallestShare; share /= 2) {
+    // A share of the change has share (2 - share) of the decrease.
+    const ChangeReport report = whole_change(springs, share * (2 - share) * decrease);
+    if (report.brought_in <= 0) return report;
+    for (Real* component : {change.x, change.y, change.z}) {
+      std::transform(component, component + state_->system.grid().size(), component,
+                     [](Real x) { return x / 2; });
+    }
+  }
+  clear(change, state_->system.grid().size());
+  return {};
 }
 
 template <class Real>
@@ -171,7 +236,8 @@ void Implicit<Real>::end_substep(Particles<Real>& particles, const BallContact<R
   kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(s.start),
                                    Real(1), s.last_move, count);
   copy<Real>(kernels::components(s.start_velocity), s.last_velocity, count);
-  std::fill_n(s.second_order, count, Real(1));
+  std::fill_n(s.second_order, count, s.smooth ? Real(1) : Real(0));
+  s.smooth = true;
   if (contact == nullptr) return;
   for (const Touch& touch : contact->touches()) s.second_order[touch.node] = Real(0);
 }

@@ -12,6 +12,12 @@ namespace weft {
 /// state is found from the forces that act in it, by Newton's method on the nodes' moves. Each iteration
 /// linearises springs, effects and contacts and solves one system by multigrid conjugate gradients.
 ///
+/// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
+/// allowed, no further iteration is made: a cloth near rest costs one. If the step brings in energy, a few
+/// further ones are made; if it still does, the step is taken back and made again by backward Euler with a
+/// line search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization,
+/// 2006, chapter 3). Not searched at once, as a halved change does not keep the momentum.
+///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
 /// motion that the formula extrapolates.
@@ -40,13 +46,32 @@ class Implicit final : public Integrator<Real> {
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     ContactConstraints<Real> contacts;
+    double allowed_error = 0;  ///< of a solve or a linearisation, J
+    bool smooth = true;        ///< the substep was not taken back
   };
 
   void begin_step(const Particles<Real>& particles, const Springs<Real>& springs);
   void begin_substep(const Particles<Real>& particles, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
-  LinearSolveReport solve(const Particles<Real>& particles, double h);
+  struct NewtonReport {
+    int linear_iterations = 0;
+    double brought_in = 0;  ///< energy, J; below 0: given off
+  };
+  struct ChangeReport {
+    double brought_in = 0;  ///< energy, J
+    double error = 0;       ///< how far the springs' linearisation is off, J
+  };
+  /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
+  using Change = ChangeReport (Implicit::*)(const Springs<Real>& springs, double decrease);
+
+  /// Takes the particles from the substep's start to its end. Returns the linear iterations.
+  int find_move(Particles<Real>& particles, const Forces<Real>& forces, double h);
+  void begin_formula(double h);
+  void guess_move(double h);
+  NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  ChangeReport whole_change(const Springs<Real>& springs, double decrease);
+  ChangeReport searched_change(const Springs<Real>& springs, double decrease);
   void end_substep(Particles<Real>& particles, const BallContact<Real>* contact, double h);
 
   const char* name_;

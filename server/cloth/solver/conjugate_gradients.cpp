@@ -14,7 +14,9 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   LinearSolveReport report;
   // The multiple of the guess that lies nearest in the energy norm: never farther than zero is.
   const double size = system.multiply(x, q);
-  const double scale = size > 0 ? kernels::dot<Real>(b, x, grid) / size : 0.0;
+  const double along = size > 0 ? kernels::dot<Real>(b, x, grid) : 0.0;
+  const double scale = size > 0 ? along / size : 0.0;
+  report.decrease = scale * along / 2;
   kernels::scale_guess<Real>(x, b, q, r, static_cast<Real>(scale), count);
   double rz = system.precondition(r, p);
   while (rz > 0 && report.iterations < max_iterations) {
@@ -23,6 +25,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     const double step = rz / curvature;
     kernels::advance_along<Real>(x, p, r, q, static_cast<Real>(step), count);
     ++report.iterations;
+    report.decrease += step * rz / 2;
     if (step * rz <= target) {
       report.converged = true;
       break;

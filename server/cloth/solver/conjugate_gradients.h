@@ -6,6 +6,7 @@ namespace weft {
 struct LinearSolveReport {
   int iterations = 0;
   bool converged = false;
+  double decrease = 0;  ///< of x . A x / 2 - b . x from x = 0, J; never below 0
 };
 
 /// Conjugate gradients on Multigrid's system (Shewchuk, An Introduction to the Conjugate Gradient Method,

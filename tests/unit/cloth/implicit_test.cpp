@@ -174,6 +174,78 @@ TEST(Implicit, SurvivesWhatItCannotSolve) {
   }
 }
 
+/// In the x-y plane, about its middle, rad/s.
+void spin(double speed, Particles<double>& sheet) {
+  each_node(sheet.grid(), [&](int r, int c) {
+    set(sheet.velocity, r, c, Vec3(0, 0, speed).cross(get(sheet.position, r, c)));
+  });
+}
+
+// Half a turn a frame: a linearised spring does not notice that its ends fly apart.
+TEST(Implicit, WhatTurnsFastGainsNoEnergy) {
+  for (const int newton_iterations : {1, 3}) {
+    Bdf2Description stepping;
+    stepping.newton_iterations = newton_iterations;
+    Material material;
+    material.structural = 50000;
+    Rig<double> rig = test::sheet_rig<double>(17, 17, stepping, {}, material);
+    spin(180, rig.particles);
+    const auto energy = [&] {
+      return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
+    };
+    const double before = energy();
+    for (int step = 0; step < 30; ++step) {
+      rig.advance(step * kFrame, kFrame);
+      EXPECT_LE(energy(), before) << newton_iterations << ' ' << step;
+    }
+  }
+}
+
+// Nodes that fly apart at random on springs of 1e8 N/m, and turns of 5 rad a frame: iterating does not get
+// there, the line search does.
+TEST(Implicit, WildMotionGainsNoEnergy) {
+  for (const IntegratorDescription& stepping :
+       {IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {
+    for (const double stiffness : {5e5, 1e8}) {
+      for (const double speed : {0.0, 300.0}) {
+        Material material;
+        material.structural = stiffness;
+        Rig<float> rig = test::hung_rig<float>(17, 17, stepping, {}, material);
+        Particles<float> noise(rig.particles.grid());
+        test::randomise(noise.velocity, -10, 10, 6);
+        each_node(noise.grid(), [&](int r, int c) {
+          if (rig.particles.inverse_mass.at(r, c) == 0) return;
+          const Vec3 turning = Vec3(0, 0, speed).cross(get(rig.particles.position, r, c));
+          set(rig.particles.velocity, r, c, turning + get(noise.velocity, r, c));
+        });
+        const auto energy = [&] {
+          return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
+        };
+        const double before = energy();
+        for (int step = 0; step < 20; ++step) {
+          rig.advance(step * kFrame, kFrame);
+          EXPECT_LE(energy(), before) << stepping.index() << ' ' << stiffness << ' ' << speed << ' ' << step;
+        }
+      }
+    }
+  }
+}
+
+// A sheet that moves on and turns nothing is linear: one iteration, whatever is allowed. One that turns by
+// 0.1 rad a frame is not.
+TEST(Implicit, FurtherLinearisationsOnlyWhereTheyAreNeeded) {
+  const auto solves = [](double turn, int newton_iterations) {
+    Bdf2Description stepping;
+    stepping.newton_iterations = newton_iterations;
+    Rig<double> rig = test::sheet_rig<double>(9, 9, stepping, {GravityEffect{}});
+    spin(turn / kFrame, rig.particles);
+    return rig.advance(0, kFrame).linear_iterations;
+  };
+  EXPECT_GT(solves(0, 1), 0);
+  EXPECT_EQ(solves(0, 3), solves(0, 1));
+  EXPECT_GT(solves(0.1, 3), solves(0.1, 1));
+}
+
 // A ball carries a free sheet upwards at 1 m/s and then leaves downwards at 5 m/s: it may push, never pull.
 // The sheet goes on at the 1 m/s it has.
 TEST(Implicit, BallThatLeavesLetsTheSheetGo) {

@@ -1,0 +1,19 @@
+#pragma once
+#include "cloth/kernels/spring_kernels.h"
+
+namespace weft::kernels {
+
+/// How far the springs' energy after a change of the positions is from what their linearisation promised, J.
+struct SpringModelError {
+  double sum = 0;        ///< energy less promise: above 0, the springs resist more than was reckoned
+  double magnitude = 0;  ///< the same without its sign, added up spring by spring
+};
+
+/// Each spring's energy 1/2 k (l - l0)^2 at position + change, less its second-order model at `position` with
+/// implicit_kernels.h's stiffness: what a turn of the spring adds. Both fields have their rows of zeros
+/// (link_kernels.h).
+template <class Real>
+SpringModelError spring_model_error(const SpringLattice<Real>& springs, const Grid& grid,
+                                    Components<const Real> position, Components<const Real> change);
+
+}  // namespace weft::kernels
