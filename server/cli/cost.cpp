@@ -14,6 +14,7 @@
 #include "cli/problems.h"
 #include "cli/progress.h"
 #include "cli/writers/output_file.h"
+#include "cloth/parallel.h"
 #include "scene/scene.h"
 #include "study/effects.h"
 #include "study/report.h"
@@ -170,6 +171,7 @@ int study_effects(const CostOptions& options, const scene::Scene& scene, int fra
 }
 
 int cost(const CostOptions& options) {
+  const ThreadLimit alone(1);  // whose processor time is what is measured
   const scene::Result result = scene::load(options.scene, options.overrides);
   if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
     print_problems(options.scene, *problems);

@@ -10,6 +10,7 @@
 #include "cli/problems.h"
 #include "cli/progress.h"
 #include "cli/stats_writer.h"
+#include "cli/threads.h"
 #include "cloth/simulation.h"
 #include "scene/scene.h"
 
@@ -27,6 +28,7 @@ struct RunOptions {
   std::optional<int> level;
   std::vector<std::string> outputs;
   std::string stats;
+  Threads threads;
 };
 
 MeshFrame mesh_of(const Simulation<float>& simulation, std::size_t cloth, int frame) {
@@ -109,6 +111,7 @@ int run(const RunOptions& options) {
     return kBadUsage;
   }
   const auto& scene = std::get<scene::Scene>(result);
+  const ThreadLimit limit = options.threads.limit();
   Simulation<float> simulation(scene.simulation);
   choose_levels(options, scene, simulation);
   Outputs outputs(options, scene.simulation);
@@ -175,6 +178,7 @@ void add_run(CLI::App& app, int& exit_code) {
           "Meshes, by extension: .obj (one file a frame), .pc2, .csv, .glb; may be given several times")
       ->allow_extra_args(false);
   command->add_option("--stats", options->stats, "Figures for each frame, as CSV");
+  options->threads.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

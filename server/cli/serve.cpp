@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/problems.h"
+#include "cli/threads.h"
 #include "host/host.h"
 #include "net/server.h"
 #include "scene/scene.h"
@@ -24,6 +25,7 @@ struct ServeOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   net::ServerOptions server;
+  Threads threads;
   bool quiet = false;
 };
 
@@ -66,6 +68,7 @@ int serve(ServeOptions options) {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
   if (options.quiet) spdlog::set_level(spdlog::level::warn);
 
+  const ThreadLimit limit = options.threads.limit();
   host::Host host;
   if (!load_scenes(options, host)) return kFailed;
   if (options.server.web.empty()) options.server.web = find_page();
@@ -104,6 +107,7 @@ void add_serve(CLI::App& app, int& exit_code) {
       ->add_option("--set", options->overrides,
                    "POINTER=VALUE changes a value of every scene, as /wind/speed=8")
       ->allow_extra_args(false);
+  options->threads.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Logs warnings and errors only");
   command->callback([options, &exit_code] { exit_code = serve(*options); });
 }

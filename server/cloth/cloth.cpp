@@ -156,10 +156,16 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::advance(std::vector<Ball>& balls, const Wind& wind, double time, double dt) {
+AdvanceReport Cloth<Real>::advance(const std::vector<Ball>& balls, const Wind& wind, double time, double dt) {
   if (!balls.empty() && !contact_) contact_ = std::make_unique<BallContact<Real>>(particles_.grid());
+  if (contact_) contact_->begin_step(balls);
   const Forces<Real> forces{&springs_, &effects_, {&description_, &wind, time}};
   return integrator_->advance(particles_, forces, balls.empty() ? nullptr : contact_.get(), balls, time, dt);
+}
+
+template <class Real>
+void Cloth<Real>::push_balls(Colliders& colliders) const {
+  if (contact_) colliders.push(contact_->impulses());
 }
 
 template class Cloth<float>;

@@ -26,7 +26,11 @@ class Cloth {
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
   bool apply_pending_level();
 
-  AdvanceReport advance(std::vector<Ball>& balls, const Wind& wind, double time, double dt);
+  /// One step among the balls as they move in it; what the cloth gives them is kept, and theirs with
+  /// push_balls(). Several cloths may do it at the same time.
+  AdvanceReport advance(const std::vector<Ball>& balls, const Wind& wind, double time, double dt);
+  /// Hands over the impulses of the last advance.
+  void push_balls(Colliders& colliders) const;
 
  private:
   void enter_level(int level, Particles<Real> particles);

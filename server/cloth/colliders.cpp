@@ -103,6 +103,10 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
   }
 }
 
+void Colliders::push(const std::vector<Vec3>& impulses) {
+  for (std::size_t i = 0; i < impulses.size(); ++i) balls_[i].impulse += impulses[i];
+}
+
 void Colliders::end_step() {
   for (Ball& ball : balls_) {
     if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += ball.impulse / ball.mass;

@@ -32,7 +32,6 @@ class Colliders {
   explicit Colliders(const std::vector<BallDescription>& balls);
 
   const std::vector<Ball>& balls() const { return balls_; }
-  std::vector<Ball>& balls() { return balls_; }
   const Ball* find(BallId id) const;
 
   BallId add(const BallDescription& ball);
@@ -46,6 +45,8 @@ class Colliders {
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
   /// velocity.
   void begin_step(double time, double dt, const Vec3& gravity);
+  /// What one cloth gave to each ball in this step, N s; the order of the calls decides the last bits.
+  void push(const std::vector<Vec3>& impulses);
   /// Dynamic balls take up the impulses the cloths gave them.
   void end_step();
 

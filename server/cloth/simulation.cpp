@@ -3,11 +3,15 @@
 #include <chrono>
 
 #include "cloth/diagnostics.h"
+#include "cloth/parallel.h"
 
 namespace weft {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// With fewer nodes in all, waking another thread costs more than it gives.
+constexpr int kNodesWorthHelp = 1000;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -53,8 +57,9 @@ void Simulation<Real>::step() {
   profile_.levels = seconds_since(begin);
 
   colliders_.begin_step(time(), dt, gravity_);
+  advance_cloths(dt);
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
-    last_advance_[i] = cloths_[i].advance(colliders_.balls(), wind_, time(), dt);
+    cloths_[i].push_balls(colliders_);
     profile_.forces += last_advance_[i].forces_seconds;
     profile_.contact += last_advance_[i].contact_seconds;
   }
@@ -65,6 +70,22 @@ void Simulation<Real>::step() {
   check_finite();
   profile_.check = seconds_since(check);
   profile_.total = seconds_since(begin);
+}
+
+template <class Real>
+void Simulation<Real>::advance_cloths(double dt) {
+  const auto advance = [&](int i) {
+    const auto cloth = static_cast<std::size_t>(i);
+    last_advance_[cloth] = cloths_[cloth].advance(colliders_.balls(), wind_, time(), dt);
+  };
+  int nodes = 0;
+  for (const Cloth<Real>& cloth : cloths_) nodes += cloth.particles().grid().nodes();
+  const int count = static_cast<int>(cloths_.size());
+  if (nodes >= kNodesWorthHelp) {
+    parallel_for(count, advance);
+  } else {
+    for (int i = 0; i < count; ++i) advance(i);
+  }
 }
 
 template <class Real>

@@ -7,7 +7,8 @@
 
 namespace weft {
 
-/// Wall time of the stages of the last step, s.
+/// Wall time of the stages of the last step, s. Cloths may be advanced at the same time: `forces` and
+/// `contact`, their sums, may then be more than `total`.
 struct StepProfile {
   double levels = 0;   ///< split and merge
   double forces = 0;   ///< springs and effects
@@ -27,7 +28,8 @@ struct ClothReport {
 };
 
 /// A scene being simulated: cloths, balls, wind, and the step. Deterministic: the same description and the
-/// same calls between the same steps give the same bits. Not thread-safe; one owner calls it.
+/// same calls between the same steps give the same bits, on any number of threads (parallel.h). Not
+/// thread-safe; one owner calls it.
 template <class Real>
 class Simulation {
  public:
@@ -65,6 +67,8 @@ class Simulation {
   void reset();
 
  private:
+  /// All cloths through the step, as it is for each of them alone.
+  void advance_cloths(double dt);
   void check_finite();
 
   SimulationDescription description_;

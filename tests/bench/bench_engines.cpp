@@ -6,6 +6,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "cloth/parallel.h"
 #include "engines/requirement.h"
 
 namespace weft::bench {
@@ -125,6 +126,7 @@ void run(const EngineScene& scene, double budget, Rows& rows) {
 }
 
 int main(const std::vector<std::string>& arguments) {
+  const ThreadLimit alone(1);
   const std::optional<Options> options = parse(arguments);
   if (!options) {
     std::cerr << kUsage;

@@ -102,6 +102,7 @@ void ball_contact(benchmark::State& state) {
   ball.position = ball.start = {0.1, 0.1, state.range(1) == 1 ? -0.15 : -5.0};
   std::vector<Ball> balls{ball};
   BallContact<Real> contact(sheet.grid());
+  contact.begin_step(balls);
   for (auto _ : state) benchmark::DoNotOptimize(contact.resolve(sheet, balls, {0.0, 1.0}));
   count_nodes(state, sheet.grid());
 }

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "baseline.h"
+#include "cloth/parallel.h"
 #include "scene/scene.h"
 #include "timing.h"
 
@@ -90,6 +91,7 @@ void print(const char* name, const SimulationDescription& scene, int repetitions
 }
 
 int main(int argc, char** argv) {
+  const ThreadLimit alone(1);
   const int repetitions = argc > 1 ? std::atoi(argv[1]) : 15;
   if (repetitions < 1) {
     std::cerr << "usage: bench_paper [REPETITIONS]\n";

@@ -45,9 +45,9 @@ class Node {
   }
 
   /// Takes away the velocity, relative to the ball's, that points against `normal`, and what friction then
-  /// takes of the rest, with its way in the substep's seconds; the ball gets the momentum. True if friction
-  /// moved it.
-  bool stop_inward_velocity(Ball& ball, const Vec3& normal, double seconds) {
+  /// takes of the rest, with its way in the substep's seconds; `impulse` gets the momentum if the ball is
+  /// dynamic. True if friction moved it.
+  bool stop_inward_velocity(const Ball& ball, const Vec3& normal, double seconds, Vec3& impulse) {
     const Vec3 velocity = particles_.velocity_at(row_, col_);
     const Vec3 relative = velocity - ball.velocity;
     const double inward = relative.dot(normal);
@@ -65,7 +65,7 @@ class Node {
     particles_.velocity.y.at(row_, col_) = static_cast<Real>(stopped.y());
     particles_.velocity.z.at(row_, col_) = static_cast<Real>(stopped.z());
     if (ball.motion == BallDescription::Motion::dynamic) {
-      ball.impulse += double(particles_.mass.at(row_, col_)) * lost;
+      impulse += double(particles_.mass.at(row_, col_)) * lost;
     }
     return speed > 0;
   }
@@ -99,8 +99,8 @@ double way_out(const PlacedBall& ball, const Vec3& origin, const Vec3& direction
 
 /// Brings a node that is inside some ball out of all of them; false if it is in none.
 template <class Real>
-bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<PlacedBall>& placed,
-                  double seconds, std::vector<Touch>& touches) {
+bool resolve_node(Node<Real>& node, const std::vector<Ball>& balls, const std::vector<PlacedBall>& placed,
+                  double seconds, std::vector<Vec3>& impulses, std::vector<Touch>& touches) {
   Vec3 middle(0, 0, 0);  // of the balls it was found in
   int found = 0;
   for (int round = 0; round < kProjections; ++round) {
@@ -108,7 +108,7 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
     for (std::size_t b = 0; b < placed.size(); ++b) {
       if (!node.inside(placed[b])) continue;
       Vec3 normal = outwards(placed[b].centre, node.position());
-      const bool held = node.stop_inward_velocity(balls[b], normal, seconds);
+      const bool held = node.stop_inward_velocity(balls[b], normal, seconds, impulses[b]);
       if (held) normal = outwards(placed[b].centre, node.position());
       node.put_outside(placed[b], placed[b].centre, normal, placed[b].radius);
       if (round == 0) touches.push_back({node.index(), balls[b].id});
@@ -136,7 +136,8 @@ bool resolve_node(Node<Real>& node, std::vector<Ball>& balls, const std::vector<
 }  // namespace
 
 template <class Real>
-int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& balls, const Substep& substep) {
+int BallContact<Real>::resolve(Particles<Real>& particles, const std::vector<Ball>& balls,
+                               const Substep& substep) {
   touches_.clear();
   const std::vector<TileBallPair>& pairs =
       broad_phase_.find_pairs(particles.position, balls, substep.from, substep.to);
@@ -172,7 +173,7 @@ int BallContact<Real>::resolve(Particles<Real>& particles, std::vector<Ball>& ba
       for (int c = 0; c < cols; ++c) {
         if (particles.inverse_mass.at(tile.row_begin + r, tile.col_begin + c) == Real(0)) continue;
         Node<Real> node(particles, tile.row_begin + r, tile.col_begin + c);
-        if (resolve_node(node, balls, placed, substep.seconds, touches_)) ++in_contact;
+        if (resolve_node(node, balls, placed, substep.seconds, impulses_, touches_)) ++in_contact;
       }
     }
   }

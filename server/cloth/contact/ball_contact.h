@@ -36,15 +36,22 @@ struct Touch {
 /// The paper's section 2.4, second half: in the struck tiles a particle inside a ball is pushed back to its
 /// surface and loses the part of its velocity, relative to the ball, that points into it. Coulomb's friction,
 /// which the paper has not, slows what is left of it by up to friction times the speed lost. A particle at
-/// the very centre leaves upwards. Pinned nodes stay. The momentum taken is given to dynamic balls
-/// (Ball::impulse).
+/// the very centre leaves upwards. Pinned nodes stay. The momentum taken is due to dynamic balls
+/// (impulses()).
 template <class Real>
 class BallContact {
  public:
   explicit BallContact(const Grid& grid) : broad_phase_(grid) {}
 
+  /// Forgets the impulses of the step before.
+  void begin_step(const std::vector<Ball>& balls) { impulses_.assign(balls.size(), Vec3::Zero()); }
   /// Resolves the contacts at a substep's end. Returns the number of nodes in contact in this call.
-  int resolve(Particles<Real>& particles, std::vector<Ball>& balls, const Substep& substep);
+  int resolve(Particles<Real>& particles, const std::vector<Ball>& balls, const Substep& substep);
+
+  /// What the cloth gave to each ball since the step began, N s; nothing to kinematic ones. The balls get it
+  /// from Colliders::push: cloths that are advanced at the same time share them.
+  const std::vector<Vec3>& impulses() const { return impulses_; }
+  std::vector<Vec3>& impulses() { return impulses_; }
 
   /// What the last resolve found in contact, ordered by tile, then node.
   const std::vector<Touch>& touches() const { return touches_; }
@@ -55,6 +62,7 @@ class BallContact {
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
   std::vector<Touch> touches_;
+  std::vector<Vec3> impulses_;
 };
 
 extern template class BallContact<float>;

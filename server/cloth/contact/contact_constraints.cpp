@@ -90,13 +90,13 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
 }
 
 template <class Real>
-void ContactConstraints<Real>::finish(kernels::Components<const Real> move, std::vector<Ball>& balls) {
+void ContactConstraints<Real>::finish(kernels::Components<const Real> move, const std::vector<Ball>& balls,
+                                      std::vector<Vec3>& impulses) {
   for (Constraint& c : constraints_) {
     const Vec3 moved = at(move, c.touch.node), slip = c.ball_move - moved;
     c.force = c.stiffness * (c.distance - c.normal.dot(moved));
-    Ball& ball = balls[c.ball];
-    if (ball.motion == BallDescription::Motion::dynamic) {
-      ball.impulse -=
+    if (balls[c.ball].motion == BallDescription::Motion::dynamic) {
+      impulses[c.ball] -=
           seconds_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
     }
     c.force = std::max(0.0, c.force);

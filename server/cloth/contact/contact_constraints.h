@@ -23,8 +23,9 @@ class ContactConstraints {
   /// are.
   void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, const Real* diagonal,
               double links_stiffness, kernels::Components<const Real> move);
-  /// Reads the forces off the solution and gives the dynamic balls their share of momentum.
-  void finish(kernels::Components<const Real> move, std::vector<Ball>& balls);
+  /// Reads the forces off the solution and adds the dynamic balls' share of momentum to `impulses`.
+  void finish(kernels::Components<const Real> move, const std::vector<Ball>& balls,
+              std::vector<Vec3>& impulses);
 
   /// Calls visit(node index) for every constrained node.
   template <class Visit>

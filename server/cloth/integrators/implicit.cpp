@@ -54,7 +54,7 @@ Implicit<Real>::State::State(const Grid& grid, bool has_bending)
 
 template <class Real>
 AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
-                                      BallContact<Real>* contact, std::vector<Ball>& balls, double time,
+                                      BallContact<Real>* contact, const std::vector<Ball>& balls, double time,
                                       double dt) {
   AdvanceReport report;
   report.substeps = parameters_.substeps;
@@ -75,7 +75,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
-      contacts.finish(state_->move, balls);
+      contacts.finish(state_->move, balls, contact->impulses());
       report.nodes_in_contact = contact->resolve(particles, balls, part);
       report.contact_seconds += seconds(Clock::now() - moved);
     }

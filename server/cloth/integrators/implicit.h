@@ -28,7 +28,7 @@ class Implicit final : public Integrator<Real> {
       : name_(name), parameters_(parameters), second_order_(second_order) {}
   const char* name() const override { return name_; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                        std::vector<Ball>& balls, double time, double dt) override;
+                        const std::vector<Ball>& balls, double time, double dt) override;
   void restart() override { state_.reset(); }
 
  private:

@@ -38,10 +38,10 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual const char* name() const = 0;
-  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; `balls` have begun the
-  /// step.
+  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; it and `balls` have begun
+  /// the step.
   virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                                std::vector<Ball>& balls, double time, double dt) = 0;
+                                const std::vector<Ball>& balls, double time, double dt) = 0;
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
 };

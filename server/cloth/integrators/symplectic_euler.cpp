@@ -44,7 +44,7 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 
 template <class Real>
 AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
-                                             BallContact<Real>* contact, std::vector<Ball>& balls,
+                                             BallContact<Real>* contact, const std::vector<Ball>& balls,
                                              double time, double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;

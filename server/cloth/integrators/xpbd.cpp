@@ -29,7 +29,7 @@ void make_acceleration(Particles<Real>& particles, double h) {
 
 template <class Real>
 AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                                  std::vector<Ball>& balls, double time, double dt) {
+                                  const std::vector<Ball>& balls, double time, double dt) {
   AdvanceReport report;
   report.substeps = description_.substeps;
   const double h = dt / report.substeps;

@@ -1,0 +1,77 @@
+#include "cloth/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <stdexcept>
+#include <string>
+
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace weft {
+namespace {
+
+/// The thread sanitizer sees nothing of how TBB, which is built without it, orders threads; this file is
+/// built without it too (CMakeLists.txt). So it is told what TBB guarantees, and no more: what was before the
+/// call is before every task, and every task is before the return. Tasks stay unordered among themselves.
+class Order {
+ public:
+#if defined(__SANITIZE_THREAD__)
+  void publish() { __tsan_release(&begin_); }
+  void task_begins() { __tsan_acquire(&begin_); }
+  void task_ends() { __tsan_release(&end_); }
+  void gather() { __tsan_acquire(&end_); }
+
+ private:
+  char begin_ = 0, end_ = 0;
+#else
+  void publish() {}
+  void task_begins() {}
+  void task_ends() {}
+  void gather() {}
+#endif
+};
+
+}  // namespace
+
+struct ThreadLimit::Impl {
+  tbb::global_control control;
+};
+
+int hardware_threads() { return tbb::info::default_concurrency(); }
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads < 1) throw std::invalid_argument("cannot work on " + std::to_string(threads) + " threads");
+  impl_.reset(new Impl{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+}
+ThreadLimit::~ThreadLimit() = default;
+
+void parallel_call(int count, void (*task)(const void* work, int i), const void* work) {
+  if (count == 1) return task(work, 0);
+  Order order;
+  order.publish();
+  // With the caller's floating-point mode: the pool's threads have one of their own otherwise.
+  tbb::task_group_context context(
+      tbb::task_group_context::isolated,
+      tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  const auto run = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, count, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          order.task_begins();
+          for (int i = range.begin(); i < range.end(); ++i) task(work, i);
+          order.task_ends();
+        },
+        tbb::simple_partitioner(), context);
+  };
+  // Isolated: while it waits for the last of a cloth's rows a thread does not begin with another cloth.
+  tbb::this_task_arena::isolate(run);
+  order.gather();
+}
+
+}  // namespace weft

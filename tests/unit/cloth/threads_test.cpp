@@ -1,0 +1,230 @@
+// Work on several threads: what parallel_for promises, and that a simulation's bits are the same on any
+// number of them. Runs under the thread sanitizer as well.
+#if defined(__SSE__)
+#include <immintrin.h>
+#endif
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "cloth/parallel.h"
+#include "cloth/simulation.h"
+
+namespace weft {
+namespace {
+
+/// Calls what() on so many threads at most, be there fewer cores.
+template <class What>
+void on_threads(int threads, const What& what) {
+  const ThreadLimit limit(threads);
+  tbb::task_arena arena(threads);
+  arena.execute(what);
+}
+
+// --- parallel_for ---
+
+TEST(ParallelFor, DoesEachOnceAndAllBeforeItReturns) {
+  for (const int threads : {1, 2, 4, 8}) {
+    on_threads(threads, [] {
+      for (const int count : {0, 1, 2, 1000}) {
+        std::vector<int> done(static_cast<std::size_t>(count));
+        parallel_for(count, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
+        EXPECT_EQ(std::count(done.begin(), done.end(), 1), count);
+      }
+    });
+  }
+}
+
+TEST(ParallelFor, MayBeCalledFromWithin) {
+  on_threads(4, [] {
+    std::array<std::array<int, 50>, 20> done{};
+    parallel_for(20, [&](int i) {
+      parallel_for(50, [&](int j) { ++done[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]; });
+    });
+    for (const auto& row : done) EXPECT_EQ(std::count(row.begin(), row.end(), 1), 50);
+  });
+}
+
+TEST(ParallelFor, HandsAnExceptionOn) {
+  const auto fails = [](int i) {
+    if (i == 7) throw std::runtime_error("seven");
+  };
+  on_threads(4, [&] { EXPECT_THROW(parallel_for(10, fails), std::runtime_error); });
+}
+
+TEST(ThreadLimit, OneMeansTheCallerAlone) {
+  on_threads(1, [] {
+    const std::thread::id caller = std::this_thread::get_id();
+    parallel_for(1000, [&](int) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+  });
+}
+
+TEST(ThreadLimit, RefusesLessThanOne) {
+  for (const int threads : {0, -1}) EXPECT_THROW(ThreadLimit limit(threads), std::invalid_argument);
+}
+
+/// Two tasks that end only when both have begun: on two threads, therefore. False if that took too long.
+template <class What>
+[[nodiscard]] bool on_two_threads_at_once(const What& what) {
+  std::atomic<int> begun = 0;
+  std::atomic<bool> met = true;
+  on_threads(2, [&] {
+    parallel_for(2, [&](int i) {
+      ++begun;
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+      while (begun < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+      if (begun < 2) met = false;
+      what(i);
+    });
+  });
+  return met;
+}
+
+TEST(ParallelFor, TasksRunAtTheSameTime) {
+  EXPECT_TRUE(on_two_threads_at_once([](int) {}));
+}
+
+#if defined(__SSE__)
+TEST(ParallelFor, SubnormalNumbersAreToAllWhatTheyAreToTheCaller) {
+  constexpr unsigned kFlushAndZero = 0x8040;
+  const unsigned before = _mm_getcsr();
+  for (const unsigned mode : {before & ~kFlushAndZero, before | kFlushAndZero}) {
+    _mm_setcsr(mode);
+    std::array<float, 2> quotients{};
+    const bool met = on_two_threads_at_once([&](int i) {
+      volatile float smallest = std::numeric_limits<float>::min();
+      quotients[static_cast<std::size_t>(i)] = smallest / 2;
+    });
+    _mm_setcsr(before);
+    EXPECT_TRUE(met);
+    for (const float quotient : quotients) EXPECT_EQ(quotient == 0, (mode & kFlushAndZero) != 0);
+  }
+}
+#endif
+
+// --- Simulations ---
+
+/// All that moves, bit by bit.
+std::vector<std::uint32_t> bits_of(const Simulation<float>& simulation) {
+  std::vector<std::uint32_t> bits;
+  const auto add = [&](const auto& value) {
+    std::array<std::uint32_t, sizeof value / sizeof(std::uint32_t)> words{};
+    std::memcpy(words.data(), &value, sizeof value);
+    bits.insert(bits.end(), words.begin(), words.end());
+  };
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    const Particles<float>& particles = cloth.particles();
+    const Grid& grid = particles.grid();
+    for (const VectorField<float>* field : {&particles.position, &particles.velocity}) {
+      for (const Field<float>* component : {&field->x, &field->y, &field->z}) {
+        for (int r = 0; r < grid.rows; ++r) {
+          for (int c = 0; c < grid.cols; ++c) add(component->at(r, c));
+        }
+      }
+    }
+  }
+  for (const Ball& ball : simulation.colliders().balls()) {
+    for (int i = 0; i < 3; ++i) {
+      add(ball.position[i]);
+      add(ball.velocity[i]);
+    }
+  }
+  return bits;
+}
+
+std::vector<IntegratorDescription> integrators() {
+  return {SymplecticEulerDescription{}, XpbdDescription{}, BackwardEulerDescription{}, Bdf2Description{}};
+}
+
+std::string name_of(const IntegratorDescription& integrator) {
+  return std::visit([](const auto& d) { return std::string(d.kName); }, integrator);
+}
+
+/// Sheets one below the other, each held by two edges, of several levels; a heavy ball falls on them.
+SimulationDescription stacked_sheets() {
+  SimulationDescription scene;
+  ClothDescription sheet;
+  sheet.size = {1, 1};
+  sheet.orientation = Quaternion(Eigen::AngleAxisd(std::acos(-1.0) / 2, Vec3(1, 0, 0)));
+  sheet.perturbation = 0.001;
+  sheet.min_level = 3;
+  sheet.pins = {{0, 0, 0, 1}, {1, 1, 0, 1}};
+  for (const int level : {4, 5, 4, 3}) {
+    sheet.initial_level = level;
+    sheet.position = Vec3(0, -0.04 * static_cast<double>(scene.cloths.size()), 0);
+    scene.cloths.push_back(sheet);
+  }
+  BallDescription ball;
+  ball.motion = BallDescription::Motion::dynamic;
+  ball.radius = 0.2;
+  ball.mass = 2;
+  ball.friction = 0.3;
+  ball.position = {0.05, 0.25, -0.02};
+  ball.velocity = {0.3, -2, 0};
+  scene.balls = {ball};
+  ball.position = {0.2, 0.75, 0.2};
+  scene.balls.push_back(ball);
+  scene.effects = {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}};
+  scene.wind = {{0, 0, -1}, 1.0};
+  return scene;
+}
+
+/// One sheet hung by two corners in the wind, a ball on its way through it.
+SimulationDescription large_sheet() {
+  SimulationDescription scene;
+  ClothDescription sheet;
+  sheet.max_level = sheet.initial_level = 7;
+  sheet.pins = {{0, 0, 0, 0}, {1, 1, 0, 0}};
+  sheet.perturbation = 0.001;
+  scene.cloths = {sheet};
+  BallDescription ball;
+  ball.radius = 0.3;
+  ball.position = {0, 0, 0.35};
+  ball.velocity = {0, 0, -4};
+  scene.balls = {ball};
+  scene.effects = {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}};
+  scene.wind = {{0, 0, -1}, 2.0};
+  return scene;
+}
+
+/// The bits after so many steps; how many cloths have touched a ball on the way goes to `touched`.
+std::vector<std::uint32_t> simulate(const SimulationDescription& scene, int threads, int steps,
+                                    std::size_t* touched) {
+  Simulation<float> simulation(scene);
+  on_threads(threads, [&] {
+    for (int i = 0; i < steps; ++i) simulation.step();
+  });
+  EXPECT_TRUE(simulation.healthy());
+  *touched = static_cast<std::size_t>(
+      std::count_if(simulation.cloths().begin(), simulation.cloths().end(),
+                    [](const auto& cloth) { return cloth.contact_counters().nodes_in_contact > 0; }));
+  return bits_of(simulation);
+}
+
+void expect_same_bits(SimulationDescription scene, int steps, std::size_t must_touch) {
+  for (const IntegratorDescription& integrator : integrators()) {
+    SCOPED_TRACE(name_of(integrator));
+    scene.integrator = integrator;
+    std::size_t touched = 0;
+    const std::vector<std::uint32_t> alone = simulate(scene, 1, steps, &touched);
+    EXPECT_GE(touched, must_touch);
+    for (const int threads : {2, 4, 8}) {
+      EXPECT_TRUE(simulate(scene, threads, steps, &touched) == alone) << threads << " threads";
+    }
+  }
+}
+
+TEST(Threads, ClothsThatShareBallsHaveTheSameBitsOnAnyNumber) { expect_same_bits(stacked_sheets(), 60, 4); }
+
+TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) { expect_same_bits(large_sheet(), 4, 1); }
+
+}  // namespace
+}  // namespace weft
