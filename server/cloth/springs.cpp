@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "cloth/bands.h"
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/spring_kernels.h"
 
@@ -160,7 +161,9 @@ void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Re
 template <class Real>
 void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> position,
                               const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const {
-  kernels::linearise_springs(lattice(grid), grid, position, links);
+  const kernels::SpringLattice<Real> springs = lattice(grid);
+  Bands(grid).for_each(
+      [&](kernels::RowRange rows, int) { kernels::linearise_springs(springs, grid, position, links, rows); });
 }
 
 template <class Real>

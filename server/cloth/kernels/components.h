@@ -18,6 +18,12 @@ struct Components {
   operator Components<const T>() const requires(!std::is_const_v<T>) { return {x, y, z}; }
 };
 
+/// The same from scalar n on.
+template <class T>
+Components<T> operator+(const Components<T>& field, std::size_t n) {
+  return {field.x + n, field.y + n, field.z + n};
+}
+
 template <class Real>
 Components<Real> components(VectorField<Real>& field) {
   return {field.x.row(0), field.y.row(0), field.z.row(0)};

@@ -43,10 +43,11 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void linearise_any(const SpringLattice<Real>& springs, const Grid& grid,
                                                  const Components<const Real>& position,
-                                                 const LinkFamilies<SpringLinks<Real>>& links) {
+                                                 const LinkFamilies<SpringLinks<Real>>& links,
+                                                 RowRange rows) {
   const std::ptrdiff_t stride = grid.stride;
   const int count = grouped(grid.cols);
-  for (int r = 0; r < grid.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
@@ -233,8 +234,8 @@ template <class Real>
   template <>                                                                                                \
   WEFT_MULTIVERSION void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid,             \
                                            Components<const Real> position,                                  \
-                                           const LinkFamilies<SpringLinks<Real>>& links) {                   \
-    linearise_any<Real>(springs, grid, position, links);                                                     \
+                                           const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {    \
+    linearise_any<Real>(springs, grid, position, links, rows);                                               \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void begin_backward_step(                                                                \

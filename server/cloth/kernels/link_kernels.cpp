@@ -162,11 +162,11 @@ template <class Real>
 
 template <class Real, bool kBending, bool kBlocks, class Links>
 [[gnu::always_inline]] inline void invert_rows(const LinkMatrix<Real, Links>& matrix, Real damping,
-                                               const Blocks<Real>& inverse) {
+                                               const Blocks<Real>& inverse, RowRange rows) {
   const Grid& grid = matrix.grid;
   const LinkFamilies<Links>& links = matrix.links;
   const std::ptrdiff_t stride = grid.stride;
-  for (int r = 0; r < grid.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c < grid.cols; ++c) {
       const std::ptrdiff_t i = r * stride + c;
@@ -194,16 +194,16 @@ template <class Real, bool kBending, bool kBlocks, class Links>
 
 template <class Real, class Links>
 [[gnu::always_inline]] inline void invert_any(const LinkMatrix<Real, Links>& matrix, Real damping,
-                                              const Blocks<Real>& inverse) {
+                                              const Blocks<Real>& inverse, RowRange rows) {
   const bool bending = matrix.links.has_bending;
   if (bending && matrix.has_blocks) {
-    invert_rows<Real, true, true>(matrix, damping, inverse);
+    invert_rows<Real, true, true>(matrix, damping, inverse, rows);
   } else if (bending) {
-    invert_rows<Real, true, false>(matrix, damping, inverse);
+    invert_rows<Real, true, false>(matrix, damping, inverse, rows);
   } else if (matrix.has_blocks) {
-    invert_rows<Real, false, true>(matrix, damping, inverse);
+    invert_rows<Real, false, true>(matrix, damping, inverse, rows);
   } else {
-    invert_rows<Real, false, false>(matrix, damping, inverse);
+    invert_rows<Real, false, false>(matrix, damping, inverse, rows);
   }
 }
 
@@ -247,9 +247,9 @@ template <class Real, class Links>
 template <class Real, bool kBending, class Links>
 [[gnu::always_inline]] inline void coarsen_rows(const Grid& fine_grid, const LinkFamilies<Links>& fine,
                                                 const Grid& coarse_grid,
-                                                const LinkFamilies<Blocks<Real>>& coarse) {
+                                                const LinkFamilies<Blocks<Real>>& coarse, RowRange rows) {
   const std::ptrdiff_t stride = fine_grid.stride, coarse_stride = coarse_grid.stride;
-  for (int r = 0; r < coarse_grid.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c + 1 < coarse_grid.cols; ++c) {
       const std::ptrdiff_t i = (r * stride + c) * 2;
@@ -276,11 +276,11 @@ template <class Real, bool kBending, class Links>
 template <class Real, class Links>
 [[gnu::always_inline]] inline void coarsen_any(const Grid& fine_grid, const LinkFamilies<Links>& fine,
                                                const Grid& coarse_grid,
-                                               const LinkFamilies<Blocks<Real>>& coarse) {
+                                               const LinkFamilies<Blocks<Real>>& coarse, RowRange rows) {
   if (fine.has_bending) {
-    coarsen_rows<Real, true>(fine_grid, fine, coarse_grid, coarse);
+    coarsen_rows<Real, true>(fine_grid, fine, coarse_grid, coarse, rows);
   } else {
-    coarsen_rows<Real, false>(fine_grid, fine, coarse_grid, coarse);
+    coarsen_rows<Real, false>(fine_grid, fine, coarse_grid, coarse, rows);
   }
 }
 
@@ -310,13 +310,14 @@ std::size_t link_work_size(const Grid& grid) {
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void invert_diagonal(const LinkMatrix<Real, Links>& matrix, Real damping,                \
-                                         const Blocks<Real>& inverse) {                                      \
-    invert_any<Real, Links>(matrix, damping, inverse);                                                       \
+                                         const Blocks<Real>& inverse, RowRange rows) {                       \
+    invert_any<Real, Links>(matrix, damping, inverse, rows);                                                 \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void coarsen_links(const Grid& fine_grid, const LinkFamilies<Links>& fine,               \
-                                       const Grid& coarse_grid, const LinkFamilies<Blocks<Real>>& coarse) {  \
-    coarsen_any<Real, Links>(fine_grid, fine, coarse_grid, coarse);                                          \
+                                       const Grid& coarse_grid, const LinkFamilies<Blocks<Real>>& coarse,    \
+                                       RowRange rows) {                                                      \
+    coarsen_any<Real, Links>(fine_grid, fine, coarse_grid, coarse, rows);                                    \
   }
 
 WEFT_LINK_KERNELS(float, SpringLinks<float>)

@@ -27,6 +27,12 @@ struct Blocks {
   Real *xx, *xy, *xz, *yy, *yz, *zz;
 };
 
+/// The same from scalar n on.
+template <class Real>
+Blocks<Real> operator+(const Blocks<Real>& b, std::size_t n) {
+  return {b.xx + n, b.xy + n, b.xz + n, b.yy + n, b.yz + n, b.zz + n};
+}
+
 /// The six families of springs.h. Bending links reach the second neighbour; coarser grids have none.
 template <class Links>
 struct LinkFamilies {
@@ -69,14 +75,16 @@ template <class Real, class Links>
 double relax(const LinkMatrix<Real, Links>& matrix, const Blocks<Real>& inverse, Components<const Real> x,
              Components<const Real> b, Components<Real> out, RowRange rows, Real* work);
 
-/// inverse = free damping (D + the links at the node)^-1, as relax wants it.
+/// inverse = free damping (D + the links at the node)^-1 on the rows, as relax wants it.
 template <class Real, class Links>
-void invert_diagonal(const LinkMatrix<Real, Links>& matrix, Real damping, const Blocks<Real>& inverse);
+void invert_diagonal(const LinkMatrix<Real, Links>& matrix, Real damping, const Blocks<Real>& inverse,
+                     RowRange rows);
 
-/// The links of the next coarser grid: means of fine links in series, summed over parallel ones, so that a
-/// uniform sheet's links keep their value. Bending links join the structural ones they lie along.
+/// The links of the next coarser grid, on its `rows`: means of fine links in series, summed over parallel
+/// ones, so that a uniform sheet's links keep their value. Bending links join the structural ones they lie
+/// along.
 template <class Real, class Links>
 void coarsen_links(const Grid& fine_grid, const LinkFamilies<Links>& fine, const Grid& coarse_grid,
-                   const LinkFamilies<Blocks<Real>>& coarse);
+                   const LinkFamilies<Blocks<Real>>& coarse, RowRange rows);
 
 }  // namespace weft::kernels

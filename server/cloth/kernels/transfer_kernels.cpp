@@ -7,12 +7,13 @@ namespace {
 
 template <class Real>
 [[gnu::always_inline]] inline void restrict_any(const Grid& fine_grid, const Real* fine,
-                                                const Grid& coarse_grid, Real* coarse, Real* work) {
+                                                const Grid& coarse_grid, Real* coarse, RowRange rows,
+                                                Real* work) {
   const std::ptrdiff_t stride = fine_grid.stride;
   Real* __restrict column = work + kRowAlign;
   column[-1] = Real(0);
   const int count = grouped(fine_grid.cols);
-  for (int r = 0; r < coarse_grid.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     const Real* __restrict row = fine + r * stride * 2;
     WEFT_INDEPENDENT_ITERATIONS
     for (int c = 0; c < count; ++c) column[c] = row[c] + (row[c - stride] + row[c + stride]) / 2;
@@ -28,11 +29,11 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void prolong_any(const Grid& coarse_grid, const Real* coarse,
                                                const Grid& fine_grid, const Real* free, Real* fine,
-                                               Real* work) {
+                                               RowRange rows, Real* work) {
   const std::ptrdiff_t coarse_stride = coarse_grid.stride;
   Real* __restrict column = work;
   const int count = grouped(coarse_grid.cols);
-  for (int r = 0; r < fine_grid.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     const Real* __restrict above = coarse + r / 2 * coarse_stride;
     const Real* __restrict below = above + (r % 2) * coarse_stride;
     WEFT_INDEPENDENT_ITERATIONS
@@ -57,13 +58,13 @@ template <class Real>
 #define WEFT_TRANSFER_KERNELS(Real)                                                                      \
   template <>                                                                                            \
   WEFT_MULTIVERSION void restrict_sum(const Grid& fine_grid, const Real* fine, const Grid& coarse_grid,  \
-                                      Real* coarse, Real* work) {                                        \
-    restrict_any<Real>(fine_grid, fine, coarse_grid, coarse, work);                                      \
+                                      Real* coarse, RowRange coarse_rows, Real* work) {                  \
+    restrict_any<Real>(fine_grid, fine, coarse_grid, coarse, coarse_rows, work);                         \
   }                                                                                                      \
   template <>                                                                                            \
   WEFT_MULTIVERSION void prolong_add(const Grid& coarse_grid, const Real* coarse, const Grid& fine_grid, \
-                                     const Real* free, Real* fine, Real* work) {                         \
-    prolong_any<Real>(coarse_grid, coarse, fine_grid, free, fine, work);                                 \
+                                     const Real* free, Real* fine, RowRange fine_rows, Real* work) {     \
+    prolong_any<Real>(coarse_grid, coarse, fine_grid, free, fine, fine_rows, work);                      \
   }
 
 WEFT_TRANSFER_KERNELS(float)

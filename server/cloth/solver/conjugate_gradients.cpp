@@ -9,7 +9,6 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
                                                   kernels::Components<Real> x, double target,
                                                   int max_iterations) {
   const Grid& grid = system.grid();
-  const std::size_t count = grid.size();
   kernels::Components<Real> p = vectors_.vector(0), q = vectors_.vector(3), r = vectors_.vector(6);
   LinearSolveReport report;
   // The multiple of the guess that lies nearest in the energy norm: never farther than zero is.
@@ -17,13 +16,18 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   const double along = size > 0 ? kernels::dot<Real>(b, x, grid) : 0.0;
   const double scale = size > 0 ? along / size : 0.0;
   report.decrease = scale * along / 2;
-  kernels::scale_guess<Real>(x, b, q, r, static_cast<Real>(scale), count);
+  bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
+    kernels::scale_guess<Real>(x + first, b + first, q + first, r + first, static_cast<Real>(scale), count);
+  });
   double rz = system.precondition(r, p);
   while (rz > 0 && report.iterations < max_iterations) {
     const double curvature = system.multiply(p, q);
     if (!(curvature > 0)) break;
     const double step = rz / curvature;
-    kernels::advance_along<Real>(x, p, r, q, static_cast<Real>(step), count);
+    bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
+      kernels::advance_along<Real>(x + first, p + first, r + first, q + first, static_cast<Real>(step),
+                                   count);
+    });
     ++report.iterations;
     report.decrease += step * rz / 2;
     if (step * rz <= target) {
@@ -31,7 +35,9 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
       break;
     }
     const double next = system.precondition(r, q);
-    kernels::turn_towards<Real>(p, q, static_cast<Real>(next / rz), count);
+    bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
+      kernels::turn_towards<Real>(p + first, q + first, static_cast<Real>(next / rz), count);
+    });
     rz = next;
   }
   report.converged = report.converged || rz == 0;

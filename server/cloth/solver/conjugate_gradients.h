@@ -14,7 +14,7 @@ struct LinearSolveReport {
 template <class Real>
 class ConjugateGradients {
  public:
-  explicit ConjugateGradients(const Grid& grid) : vectors_(grid, 9) {}
+  explicit ConjugateGradients(const Grid& grid) : bands_(grid), vectors_(grid, 9) {}
 
   /// Improves x, the guess, until an iteration's progress in the squared energy norm x . A x, an estimate of
   /// the squared error before it (Hestenes and Stiefel 1952), is at most `target`, J, or for
@@ -25,6 +25,7 @@ class ConjugateGradients {
                           kernels::Components<Real> x, double target, int max_iterations);
 
  private:
+  Bands bands_;
   NodeArrays<Real> vectors_;
 };
 

@@ -29,7 +29,8 @@ Grid coarser(const Grid& grid) { return Grid::with_nodes((grid.rows + 1) / 2, (g
 
 template <class Real, class Links>
 GridLevel<Real, Links>::GridLevel(const Grid& grid, bool has_bending)
-    : numbers_(grid, 2),
+    : bands(grid),
+      numbers_(grid, 2),
       links_(grid, (has_bending ? 6 : 4) * static_cast<int>(sizeof(Links) / sizeof(Real*))),
       inverse_(grid, 6),
       vectors_(grid, 9) {
@@ -68,7 +69,9 @@ template struct GridLevel<double, kernels::SpringLinks<double>>;
 
 template <class Real>
 Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending)
-    : finest_(finest, has_bending), work_(kernels::link_work_size(finest), Real(0)) {
+    : finest_(finest, has_bending),
+      work_size_(kernels::link_work_size(finest)),
+      work_(static_cast<std::size_t>(finest_.bands.count()) * work_size_, Real(0)) {
   for (Grid grid = finest; can_coarsen(grid);) {
     grid = coarser(grid);
     coarse_.emplace_back(grid, false);
@@ -78,32 +81,6 @@ Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending)
 
 template <class Real>
 void Multigrid<Real>::prepare() {
-  const auto prepare_level = [&](auto& level) {
-    kernels::invert_diagonal(level.matrix, static_cast<Real>(kDamping), level.inverse);
-  };
-  const auto coarsen = [&](auto& fine, Coarse& coarse) {
-    const Grid &fine_grid = fine.matrix.grid, &grid = coarse.matrix.grid;
-    kernels::coarsen_links(fine_grid, fine.matrix.links, grid, coarse.matrix.links);
-    kernels::restrict_sum(fine_grid, fine.matrix.diagonal, grid, coarse.diagonal(), work_.data());
-    coarse.use_blocks(fine.matrix.has_blocks);
-    if (fine.matrix.has_blocks) {
-      const auto from = fine.matrix.blocks;
-      const auto to = coarse.matrix.blocks;
-      for (const auto& [f, t] : {std::pair{from.xx, to.xx},
-                                 {from.xy, to.xy},
-                                 {from.xz, to.xz},
-                                 {from.yy, to.yy},
-                                 {from.yz, to.yz},
-                                 {from.zz, to.zz}}) {
-        kernels::restrict_sum(fine_grid, f, grid, t, work_.data());
-      }
-    }
-    for (int r = 0; r < grid.rows; ++r) {
-      for (int c = 0; c < grid.cols; ++c) {
-        coarse.free()[grid.index(r, c)] = fine.free()[fine_grid.index(2 * r, 2 * c)];
-      }
-    }
-  };
   prepare_level(finest_);
   for (std::size_t i = 0; i < coarse_.size(); ++i) {
     if (i == 0) {
@@ -117,8 +94,47 @@ void Multigrid<Real>::prepare() {
 }
 
 template <class Real>
+template <class Fine>
+void Multigrid<Real>::prepare_level(Fine& level) {
+  level.bands.for_each([&](kernels::RowRange rows, int) {
+    kernels::invert_diagonal(level.matrix, static_cast<Real>(kDamping), level.inverse, rows);
+  });
+}
+
+template <class Real>
+template <class Fine>
+void Multigrid<Real>::coarsen(Fine& fine, Coarse& coarse) {
+  const Grid &fine_grid = fine.matrix.grid, &grid = coarse.matrix.grid;
+  coarse.use_blocks(fine.matrix.has_blocks);
+  const auto from = fine.matrix.blocks;
+  const auto to = coarse.matrix.blocks;
+  coarse.bands.for_each([&](kernels::RowRange rows, int band) {
+    kernels::coarsen_links(fine_grid, fine.matrix.links, grid, coarse.matrix.links, rows);
+    const auto restrict_rows = [&](const Real* values, Real* sums) {
+      kernels::restrict_sum(fine_grid, values, grid, sums, rows, work(band));
+    };
+    restrict_rows(fine.matrix.diagonal, coarse.diagonal());
+    if (fine.matrix.has_blocks) {
+      restrict_rows(from.xx, to.xx);
+      restrict_rows(from.xy, to.xy);
+      restrict_rows(from.xz, to.xz);
+      restrict_rows(from.yy, to.yy);
+      restrict_rows(from.yz, to.yz);
+      restrict_rows(from.zz, to.zz);
+    }
+    for (int r = rows.begin; r < rows.end; ++r) {
+      for (int c = 0; c < grid.cols; ++c) {
+        coarse.free()[grid.index(r, c)] = fine.free()[fine_grid.index(2 * r, 2 * c)];
+      }
+    }
+  });
+}
+
+template <class Real>
 double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) {
-  return kernels::multiply(finest_.matrix, x, y, {0, grid().rows}, work_.data());
+  return finest_.bands.sum([&](kernels::RowRange rows, int band) {
+    return kernels::multiply(finest_.matrix, x, y, rows, work(band));
+  });
 }
 
 template <class Real>
@@ -131,28 +147,36 @@ template <class Links>
 double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
                               kernels::Components<const Real> b, kernels::Components<Real> z) {
   const Grid& grid = level.matrix.grid;
-  const kernels::RowRange all{0, grid.rows};
-  kernels::apply_blocks(level.inverse, b, level.x, grid.size());
+  level.bands.for_each_stretch([&](std::size_t first, std::size_t count) {
+    kernels::apply_blocks(level.inverse + first, b + first, level.x + first, count);
+  });
   if (next < coarse_.size()) {
     Coarse& coarse = coarse_[next];
     const Grid& coarse_grid = coarse.matrix.grid;
-    kernels::residual<Real, Links>(level.matrix, level.x, b, level.y, all, work_.data());
-    for (const auto& [from, to] :
-         {std::pair{level.y.x, coarse.b.x}, {level.y.y, coarse.b.y}, {level.y.z, coarse.b.z}}) {
-      kernels::restrict_sum<Real>(grid, from, coarse_grid, to, work_.data());
-    }
-    kernels::Components<Real> correction = coarse.y;
+    level.bands.for_each([&](kernels::RowRange rows, int band) {
+      kernels::residual<Real, Links>(level.matrix, level.x, b, level.y, rows, work(band));
+    });
+    coarse.bands.for_each([&](kernels::RowRange rows, int band) {
+      kernels::restrict_sum<Real>(grid, level.y.x, coarse_grid, coarse.b.x, rows, work(band));
+      kernels::restrict_sum<Real>(grid, level.y.y, coarse_grid, coarse.b.y, rows, work(band));
+      kernels::restrict_sum<Real>(grid, level.y.z, coarse_grid, coarse.b.z, rows, work(band));
+    });
+    const kernels::Components<Real> correction = coarse.y;
     if (next + 1 < coarse_.size()) {
       cycle(coarse, next + 1, coarse.b, correction);
     } else {
       coarsest_->solve(coarse.b, correction);
     }
-    for (const auto& [from, to] :
-         {std::pair{correction.x, level.x.x}, {correction.y, level.x.y}, {correction.z, level.x.z}}) {
-      kernels::prolong_add<Real>(coarse_grid, from, grid, level.matrix.free, to, work_.data());
-    }
+    const Real* free = level.matrix.free;
+    level.bands.for_each([&](kernels::RowRange rows, int band) {
+      kernels::prolong_add<Real>(coarse_grid, correction.x, grid, free, level.x.x, rows, work(band));
+      kernels::prolong_add<Real>(coarse_grid, correction.y, grid, free, level.x.y, rows, work(band));
+      kernels::prolong_add<Real>(coarse_grid, correction.z, grid, free, level.x.z, rows, work(band));
+    });
   }
-  return kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, all, work_.data());
+  return level.bands.sum([&](kernels::RowRange rows, int band) {
+    return kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
+  });
 }
 
 template class Multigrid<float>;

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "cloth/bands.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
 
@@ -12,6 +13,7 @@ struct GridLevel {
   GridLevel(const Grid& grid, bool has_bending);
   GridLevel(GridLevel&&) noexcept = default;  // not to be copied: the views below point into the storage
 
+  Bands bands;
   kernels::LinkMatrix<Real, Links> matrix;
   kernels::Blocks<Real> inverse;  ///< of the diagonal blocks, damped
   kernels::Components<Real> b, x, y;
@@ -51,6 +53,12 @@ class Multigrid {
 
  private:
   using Coarse = GridLevel<Real, kernels::Blocks<Real>>;
+  /// Work space of a band of any level.
+  Real* work(int band) { return work_.data() + static_cast<std::size_t>(band) * work_size_; }
+  template <class Fine>
+  void prepare_level(Fine& level);
+  template <class Fine>
+  void coarsen(Fine& fine, Coarse& coarse);
   template <class Links>
   double cycle(GridLevel<Real, Links>& level, std::size_t next, kernels::Components<const Real> b,
                kernels::Components<Real> z);
@@ -58,6 +66,7 @@ class Multigrid {
   GridLevel<Real, kernels::SpringLinks<Real>> finest_;
   std::vector<Coarse> coarse_;  ///< fine to coarse
   std::optional<CoarseSolver<Real>> coarsest_;
+  std::size_t work_size_;  ///< of a band
   std::vector<Real, AlignedAllocator<Real>> work_;
 };
 
