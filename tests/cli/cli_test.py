@@ -85,6 +85,16 @@ class Outputs(CliTest):
         self.assertEqual([(row["frame"], row["cloth"], row["level"]) for row in rows],
                          [("0", "flag", "4"), ("0", "second", "3"), ("1", "flag", "4"), ("1", "second", "3")])
 
+    def test_threads_do_not_change_the_bytes(self):
+        cloth = '{"name": "%s", "levels": {"min": 5, "max": 5}, "pins": ["top"], "position": [0, 0, %s]}'
+        scene = self.scene_file('{"cloths": [%s], "effects": [{"type": "gravity"}]}'
+                                % ", ".join(cloth % (name, z) for name, z in (("a", 0), ("b", 1), ("c", 2))))
+        for threads in (1, 3):
+            self.run_ok(scene, "--threads", threads, "--frames", 10, "--out", self.folder / f"on_{threads}.pc2")
+        for cloth in "abc":
+            self.assertEqual((self.folder / f"on_1-{cloth}.pc2").read_bytes(),
+                             (self.folder / f"on_3-{cloth}.pc2").read_bytes())
+
     def test_no_progress_bar_without_a_terminal(self):
         self.assertEqual(self.run_ok("flag", "--frames", 5, "--level", 4).stderr, "")
 
@@ -137,6 +147,13 @@ class ExitCodes(CliTest):
             result = weft(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertNotEqual(result.stderr, "", arguments)
+
+    def test_threads_must_make_sense(self):
+        for command in ("run", "serve"):
+            for threads in ("0", "-1", "1025", "many"):
+                result = weft(command, "flag", "--threads", threads)
+                self.assertEqual(result.returncode, 2, f"{command} --threads {threads}")
+                self.assertIn("--threads", result.stderr)
 
     def test_help_is_0(self):
         self.assertEqual(weft("run", "--help").returncode, 0)
