@@ -137,7 +137,7 @@ struct SimulationDescription {
   std::vector<BallDescription> balls;
   std::vector<EffectDescription> effects;
   Wind wind;
-  IntegratorDescription integrator;
+  IntegratorDescription integrator = Bdf2Description{};
   double time_step = 1.0 / 60.0;  ///< s
   LevelPolicy level_policy;
   std::uint64_t seed = 1;

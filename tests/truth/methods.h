@@ -6,6 +6,7 @@
 #include <array>
 #include <complex>
 #include <numbers>
+#include <ostream>
 #include <string>
 
 #include "rig.h"
@@ -45,15 +46,22 @@ inline IntegratorDescription stepping(Method method, int substeps, int newton_it
   }
 }
 
+/// For GoogleTest's messages.
+inline void PrintTo(Method method, std::ostream* out) { *out << name_of(method); }
+
+/// What a step of h makes of y' = i w y: the principal root of backward Euler's or BDF2's characteristic
+/// polynomial (T3, T4).
+inline std::complex<double> principal_root(Method method, double w, double h) {
+  const std::complex<double> z(0, w * h);
+  return method == Method::bdf2 ? (2.0 + std::sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z) : 1.0 / (1.0 - z);
+}
+
 /// Frequency that the method gives a mode of angular frequency w stepped by h, relative to the mode's own:
 /// the argument of the principal root of its characteristic polynomial (T4). Projecting a spring once is
 /// backward Euler.
 inline double relative_frequency(Method method, double w, double h) {
-  const std::complex<double> z(0, w * h);
   if (method == Method::symplectic_euler) return 2 * std::asin(w * h / 2) / (w * h);
-  const std::complex<double> root =
-      method == Method::bdf2 ? (2.0 + std::sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z) : 1.0 / (1.0 - z);
-  return std::arg(root) / (w * h);
+  return std::arg(principal_root(method, w, h)) / (w * h);
 }
 
 /// Frequency, Hz, of a signal sampled every `dt` seconds, from its first to its last upward crossing of zero,
