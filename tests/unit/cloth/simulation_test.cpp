@@ -142,6 +142,36 @@ TEST(SimulationCommands, SubstepsCanBeFixedByTheScene) {
   EXPECT_EQ(simulation.report(0).substeps, 77);
 }
 
+TEST(SimulationCommands, AnIntegratorTakesOverInTheNextStepAndChangesNothingElse) {
+  Simulation<double> changed(busy_scene()), other(busy_scene());
+  run(changed, 5);
+  const Particles<double> before = changed.cloths()[0].particles();
+  changed.set_integrator(XpbdDescription{7});
+  EXPECT_TRUE(test::same_state(before, changed.cloths()[0].particles()));
+  changed.step();
+  EXPECT_EQ(changed.report(0).substeps, 7);
+  EXPECT_EQ(changed.step_count(), 6u);
+  // There and back between two steps is as if nothing had been said: these methods remember nothing.
+  run(other, 5);
+  other.set_integrator(XpbdDescription{7});
+  other.step();
+  other.set_integrator(BackwardEulerDescription{});
+  other.set_integrator(XpbdDescription{7});
+  run(other, 3);
+  run(changed, 3);
+  EXPECT_TRUE(test::same_state(changed.cloths()[0].particles(), other.cloths()[0].particles()));
+}
+
+TYPED_TEST(SimulationOf, ResetGoesBackToTheDescriptionsIntegrator) {
+  Simulation<TypeParam> simulation(busy_scene()), plain(busy_scene());
+  simulation.set_integrator(XpbdDescription{7});
+  run(simulation, 3);
+  simulation.reset();
+  run(simulation, 3);
+  run(plain, 3);
+  EXPECT_TRUE(test::same_state(simulation.cloths()[0].particles(), plain.cloths()[0].particles()));
+}
+
 TEST(SimulationCommands, WindTakesEffectInTheNextStep) {
   SimulationDescription scene = busy_scene();
   scene.balls.clear();
