@@ -163,6 +163,16 @@ TEST(Reader, CameraEyeAndDistanceFollowEachOther) {
   EXPECT_EQ(both.camera_eye, Vec3(1, 2, 3));
 }
 
+TEST(Reader, QualityIsOneOfErrorAndTime) {
+  EXPECT_FALSE(read_good("least").quality.asks());
+  const Quality error = read_good("everything").quality;
+  EXPECT_EQ(error.max_error, 0.01);
+  EXPECT_FALSE(error.max_ms);
+  const Quality time = good(parse(R"({"cloths":[{}],"quality":{"max_ms":2}})", "b")).quality;
+  EXPECT_EQ(time.max_ms, 2);
+  EXPECT_FALSE(time.max_error);
+}
+
 TEST(Reader, AFilesNameBecomesTheScenesName) {
   const auto file = std::filesystem::path(testing::TempDir()) / "My Scene_2.v1.json";
   std::ofstream(file) << R"({"cloths":[{}]})";
