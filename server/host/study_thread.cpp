@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <utility>
 
 #include "host/arithmetic.h"
+#include "study/thread_time.h"
 
 namespace weft::host {
 namespace {
@@ -24,15 +24,8 @@ constexpr double kDeadline = 100;
 constexpr double kTarget = 1e-4;  // of the references, in cloth sizes: 0.2 mm of a cloth of 2 m
 constexpr int kNiceness = 10;     // viewers' frames come first
 
-struct GivenUp : std::exception {};
-struct TooLong : std::exception {};
-
-/// s of this thread's processor time: a busy machine makes a study later, not worse.
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
+struct GivenUp {};
+struct TooLong {};
 
 /// One study at a time.
 class Turn {
@@ -72,19 +65,23 @@ study::StudyPlan plan_of(const SimulationDescription& description) {
 }
 
 StudyOutcome study_of(const SimulationDescription& description, const std::stop_token& stop) {
-  const double deadline = now() + kDeadline;
+  // By processor time a busy machine makes a study later, not worse.
+  const double deadline = study::thread_time() + kDeadline;
   const auto watch = [&] {
     if (stop.stop_requested()) throw GivenUp();
-    if (now() > deadline) throw TooLong();
+    if (study::thread_time() > deadline) throw TooLong();
   };
   try {
-    StudyOutcome outcome{study::choices_of(study::study_cost(description, plan_of(description), now, watch)),
-                         {}};
+    StudyOutcome outcome{
+        study::choices_of(study::study_cost(description, plan_of(description), study::thread_time, watch)),
+        {}};
     if (outcome.choices.levels.empty())
       outcome.why = "no way to step the scene stayed finite in the time there was";
     return outcome;
   } catch (const TooLong&) {
     return {{}, "the scene is too large to be measured while it is shown; weft cost takes its time"};
+  } catch (const std::exception& error) {
+    return {{}, error.what()};
   }
 }
 
