@@ -218,6 +218,15 @@ Fault normalise_wind(const json& message, Command& command) {
   return {};
 }
 
+/// Not both.
+Fault check_quality(const json&, Command& command) {
+  const auto& quality = std::get<Quality>(command);
+  if (quality.max_error && quality.max_ms)
+    return JsonFault{"conflict", "/max_ms",
+                     "/max_ms is given beside /max_error; allowed: at most one of /max_error and /max_ms"};
+  return {};
+}
+
 struct Operation {
   const char* name;
   Command blank;
@@ -265,6 +274,12 @@ const std::vector<Operation>& operations() {
        {field<&WindSet::direction>("direction", kRequired, {-1e6, 1e6}),
         field<&WindSet::speed>("speed", kRequired, {0, 100, "m/s"})},
        normalise_wind},
+      {"quality",
+       Quality{},
+       {field<&Quality::max_error>("max_error", kOptional, {1e-6, 1}),
+        field<&Quality::max_ms>("max_ms", kOptional, {0.01, 1000, "ms"})},
+       check_quality},
+      {"cost", Cost{}, {}},
       {"pause", Pause{}, {}},
       {"resume", Resume{}, {}},
       {"reset", Reset{}, {}},

@@ -64,6 +64,12 @@ struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
 };
+/// At most one of the two; without either the scene's own again.
+struct Quality {
+  std::optional<double> max_error;  ///< in cloth sizes
+  std::optional<double> max_ms;
+};
+struct Cost {};
 struct Pause {};
 struct Resume {};
 struct Reset {};
@@ -75,7 +81,7 @@ struct Ping {
 };
 
 using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
-                             BallRemove, WindSet, Pause, Resume, Reset, Step, Ping>;
+                             BallRemove, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -3,7 +3,7 @@
  *
  * Events (all CustomEvents, payload in `detail`):
  *   state    {state: 'connecting'|'open'|'lost'|'refused', ...}  see worker.js
- *   message  a server message that is no reply: welcome, scene, event, stats, notice
+ *   message  a server message that is no reply: welcome, scene, event, stats, curve, notice
  *   frame    {frame, arrivedMs, bytes}
  */
 export class Link extends EventTarget {

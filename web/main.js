@@ -1,5 +1,6 @@
 import {BallHand} from './ball_hand.js';
 import {CameraRig, EyeReporter} from './camera_rig.js';
+import {CostPanel} from './cost_panel.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
 import {Link} from './link.js';
@@ -76,6 +77,10 @@ function start(settings) {
   };
   let scenes = [];
   const panel = new Panel(actions);
+  const cost = new CostPanel({
+    askCost: () => command({op: 'cost'}),
+    setQuality: (wish) => command({op: 'quality', ...wish}),
+  });
   panel.setWireframe(settings.wireframe);
   const hand = new BallHand(stage, show.balls, {
     move: actions.moveBall,
@@ -107,6 +112,7 @@ function start(settings) {
   link.addEventListener('state', ({detail}) => {
     hud.showConnection(detail.state);
     panel.setLive(detail.state === 'open');
+    cost.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
@@ -138,6 +144,7 @@ function start(settings) {
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
       hud.showNotice(null);
+      cost.begin();
     },
     event: (message) => {
       if (message.wind) {
@@ -150,7 +157,9 @@ function start(settings) {
     stats: (message) => {
       latest.stats = message;
       hud.showStats(message, nearest()?.cloth ?? 0);
+      cost.setQuality(message.quality);
     },
+    curve: (message) => cost.setCurve(message),
     notice: (message) => {
       if (message.code === 'real_time') hud.showNotice(null);
       else hud.showNotice(message.message);

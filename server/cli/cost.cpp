@@ -5,7 +5,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "cloth/parallel.h"
 #include "scene/scene.h"
 #include "study/effects.h"
+#include "study/quality.h"
 #include "study/report.h"
 
 namespace weft::cli {
@@ -73,15 +73,7 @@ std::string machine() {
 
 /// Those asked for, else all that some cloth of the scene has.
 std::vector<int> levels_of(const CostOptions& options, const scene::Scene& scene) {
-  if (!options.levels.empty()) return options.levels;
-  int low = kMaxLevel, high = kMinLevel;
-  for (const ClothDescription& cloth : scene.simulation.cloths) {
-    low = std::min(low, cloth.min_level);
-    high = std::max(high, cloth.max_level);
-  }
-  std::vector<int> levels(static_cast<std::size_t>(high - low + 1));
-  std::iota(levels.begin(), levels.end(), low);
-  return levels;
+  return options.levels.empty() ? study::levels_of(scene.simulation) : options.levels;
 }
 
 double now() {

@@ -26,6 +26,11 @@ class Cloth {
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
   bool apply_pending_level();
 
+  /// The next advance() is by `integrator`, which knows nothing of the steps before.
+  void set_integrator(const IntegratorDescription& integrator) {
+    integrator_ = make_integrator<Real>(integrator);
+  }
+
   /// One step among the balls as they move in it; what the cloth gives them is kept, and theirs with
   /// push_balls(). Several cloths may do it at the same time.
   AdvanceReport advance(const std::vector<Ball>& balls, const Wind& wind, double time, double dt);

@@ -57,6 +57,10 @@ ThreadLimit::ThreadLimit(int threads) {
 }
 ThreadLimit::~ThreadLimit() = default;
 
+void call_alone(const std::function<void()>& work) {
+  tbb::task_arena(1).execute(work);  // an arena of one, which is the caller
+}
+
 void parallel_call(int count, void (*task)(const void* work, int i), const void* work) {
   if (count == 1) return task(work, 0);
   Order order;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 
 /// Work spread over the threads of a task pool (oneTBB, which only parallel.cpp knows). Which thread does
@@ -24,6 +25,9 @@ class ThreadLimit {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Calls work, and gives it no help: what it does stays on the calling thread, whatever others may do.
+void call_alone(const std::function<void()>& work);
 
 /// Calls task(work, i) as parallel_for does.
 void parallel_call(int count, void (*task)(const void* work, int i), const void* work);

@@ -48,6 +48,11 @@ void Simulation<Real>::reset() {
 }
 
 template <class Real>
+void Simulation<Real>::set_integrator(const IntegratorDescription& integrator) {
+  for (Cloth<Real>& cloth : cloths_) cloth.set_integrator(integrator);
+}
+
+template <class Real>
 void Simulation<Real>::step() {
   const double dt = description_.time_step;
   const auto begin = Clock::now();

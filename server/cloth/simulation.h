@@ -56,6 +56,9 @@ class Simulation {
   // Commands: each takes effect in the next step.
   void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
   void set_wind(const Wind& wind) { wind_ = wind; }
+  /// Every cloth is stepped by `integrator` from the next step on; until reset(), which goes back to the
+  /// description's.
+  void set_integrator(const IntegratorDescription& integrator);
   BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
   bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }

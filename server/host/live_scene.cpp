@@ -18,7 +18,10 @@ constexpr double kFrameRate = 60.0;
 }  // namespace
 
 LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
-    : scene_(std::move(scene)), limits_(limits), simulation_(scene_.simulation) {
+    : scene_(std::move(scene)),
+      limits_(limits),
+      simulation_(scene_.simulation),
+      quality_(scene_.quality, scene_.simulation.integrator) {
   for (const Cloth<float>& cloth : simulation_.cloths()) {
     finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
   }
@@ -65,15 +68,31 @@ void LiveScene::look(Seat& seat) {
 
 void LiveScene::request_levels() {
   if (seats_.empty() || unstable_) return;
-  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
-    int finest = 0;
-    for (const Seat& seat : seats_) finest = std::max(finest, seat.levels[i]);
+  std::vector<int> wanted(simulation_.cloths().size(), 0);
+  for (const Seat& seat : seats_) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], seat.levels[i]);
+  }
+  quality_.want_level(*std::max_element(wanted.begin(), wanted.end()));
+  use_chosen_integrator();
+  const int cap = quality_.level_cap().value_or(kMaxLevel);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
     Cloth<float>& cloth = simulation_.cloths()[i];
+    const int finest = std::min(wanted[i], cap);
     cloth.request_level(finest);
     // A scene that stands still gets finer at once, so that looking closer shows something. It does not get
     // coarser: what a merge drops would be missing when the viewer comes back.
     if (!wants_step() && finest > cloth.level() && cloth.apply_pending_level()) state_changed();
   }
+}
+
+void LiveScene::use_chosen_integrator() {
+  if (const auto integrator = quality_.take_change()) simulation_.set_integrator(*integrator);
+}
+
+void LiveScene::take_study(StudyOutcome outcome) {
+  quality_.studied(std::move(outcome));
+  request_levels();
+  tell_curve();
 }
 
 // --- Steps ---
@@ -95,6 +114,7 @@ void LiveScene::step() {
     became_unstable("a position or velocity is no longer finite");
     return;
   }
+  quality_.stepped(simulation_.profile().total * 1e3);
   find_centres();
   remove_lost_balls();
   const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
@@ -172,6 +192,7 @@ void LiveScene::send_stats(double rate) {
     state.substeps.push_back(simulation_.report(i).substeps);
     state.levels.push_back(encoder_.simulated_level(i));
   }
+  state.quality = quality_.stats_json();
   for (const Seat& seat : seats_)
     seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)));
 }
@@ -200,6 +221,14 @@ void LiveScene::tell_all(std::string text) {
 
 void LiveScene::tell_event(std::string_view kind, std::uint64_t frame, const json& what) {
   tell_all(protocol::event_text(kind, frame, what));
+}
+
+void LiveScene::tell_curve() {
+  if (!quality_.has_outcome()) return;
+  for (Seat& seat : seats_) {
+    if (std::exchange(seat.wants_curve, false))
+      seat.viewer->send(seat.visit, make_text(quality_.curve_text()));
+  }
 }
 
 std::uint16_t LiveScene::flags() const {

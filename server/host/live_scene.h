@@ -9,6 +9,7 @@
 
 #include "cloth/simulation.h"
 #include "host/frame_encoder.h"
+#include "host/scene_quality.h"
 #include "host/seat.h"
 #include "protocol/message.h"
 #include "scene/scene.h"
@@ -16,9 +17,10 @@
 namespace weft::host {
 
 /// The commands that are the scene's to carry out; the rest is answered by Connection.
-using SceneCommand = std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove,
-                                  protocol::BallThrow, protocol::BallRemove, protocol::WindSet,
-                                  protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
+using SceneCommand =
+    std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
+                 protocol::BallRemove, protocol::WindSet, protocol::Quality, protocol::Cost, protocol::Pause,
+                 protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -44,6 +46,10 @@ class LiveScene {
   bool wants_step() const;
   /// One step, at the finest level that any viewer needs.
   void step();
+  /// Somebody wishes for a quality or asks for the cost, which have to be studied first.
+  bool wants_study() const { return quality_.wants_study() && !seats_.empty(); }
+  /// What that study found.
+  void take_study(StudyOutcome outcome);
   /// Whether the clock runs behind; viewers are told when it changes.
   void set_slow(bool slow);
   /// Sends each viewer that needs one the newest frame at its levels. `server_ms` is the server's clock.
@@ -72,6 +78,8 @@ class LiveScene {
   Outcome carry_out(const protocol::BallThrow& thrown, Seat& seat);
   Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
+  Outcome carry_out(const protocol::Quality& quality, Seat& seat);
+  Outcome carry_out(const protocol::Cost& cost, Seat& seat);
   Outcome carry_out(const protocol::Pause& pause, Seat& seat);
   Outcome carry_out(const protocol::Resume& resume, Seat& seat);
   Outcome carry_out(const protocol::Reset& reset, Seat& seat);
@@ -80,6 +88,7 @@ class LiveScene {
 
   void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
   void request_levels();
+  void use_chosen_integrator();
   void find_centres();
   void set_paused(bool paused);
   void became_unstable(const std::string& why);
@@ -88,12 +97,14 @@ class LiveScene {
   void balls_changed(std::string_view kind, BallId id);
   void tell_all(std::string text);
   void tell_event(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
+  void tell_curve();  ///< to those who asked, once it is known
   std::uint16_t flags() const;
 
   scene::Scene scene_;
   protocol::Limits limits_;
   Simulation<float> simulation_;
   FrameEncoder encoder_;
+  SceneQuality quality_;
   std::vector<Seat> seats_;
   std::vector<int> finest_sendable_;  ///< by cloth
   std::vector<Vec3> centres_;         ///< of the cloths, in the last good state

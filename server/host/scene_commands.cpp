@@ -46,6 +46,7 @@ void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit
   } else if (request.id) {
     viewer->send(make_text(protocol::ok_text(*request.id, takes_effect_, std::get<json>(outcome))));
   }
+  tell_curve();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
@@ -108,6 +109,20 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   return json::object();
 }
 
+LiveScene::Outcome LiveScene::carry_out(const protocol::Quality& quality, Seat&) {
+  quality_.wish({quality.max_error, quality.max_ms});
+  request_levels();
+  tell_event("quality", takes_effect_, {{"wish", quality_.wish_json()}});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::Cost&, Seat& seat) {
+  takes_effect_ = simulation_.step_count();
+  quality_.ask();
+  seat.wants_curve = true;
+  return json::object();
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::Pause&, Seat&) {
   takes_effect_ = simulation_.step_count();
   waiting_steps_ = 0;
@@ -138,6 +153,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   simulation_.reset();
+  quality_.restarted();
   if (unstable_) paused_ = paused_before_;
   unstable_ = false;
   waiting_steps_ = 0;

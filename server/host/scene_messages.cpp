@@ -88,14 +88,15 @@ std::string stats_text(const Simulation<float>& simulation, const StatsState& st
                       {"substeps", state.substeps[i]},
                       {"distance", seat.distances[i]}});
   }
-  const json message = {{"op", "stats"},
-                        {"f", simulation.step_count()},
-                        {"time", simulation.time()},
-                        {"step_ms", simulation.profile().total * 1e3},
-                        {"rate", state.rate},
-                        {"viewers", state.viewers},
-                        {"dropped", seat.viewer->dropped()},
-                        {"cloths", std::move(cloths)}};
+  json message = {{"op", "stats"},
+                  {"f", simulation.step_count()},
+                  {"time", simulation.time()},
+                  {"step_ms", simulation.profile().total * 1e3},
+                  {"rate", state.rate},
+                  {"viewers", state.viewers},
+                  {"dropped", seat.viewer->dropped()},
+                  {"cloths", std::move(cloths)}};
+  if (!state.quality.is_null()) message["quality"] = state.quality;
   return message.dump();
 }
 

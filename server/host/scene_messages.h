@@ -21,11 +21,13 @@ nlohmann::json balls_json(const Colliders& colliders);
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);
-/// `stats`, as it is sent to `seat`. `substeps` and `levels` (simulated ones) are by cloth.
+/// `stats`, as it is sent to `seat`. `substeps` and `levels` (simulated ones) are by cloth; `quality` is null
+/// if there is nothing to tell of it.
 struct StatsState {
   double rate = 1.0;
   std::size_t viewers = 0;
   std::vector<int> substeps, levels;
+  nlohmann::json quality;
 };
 std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat);
 

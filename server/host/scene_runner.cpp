@@ -1,28 +1,18 @@
 #include "host/scene_runner.h"
 
-#if defined(__SSE__)
-#include <immintrin.h>
-#endif
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "host/arithmetic.h"
+
 namespace weft::host {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kStatsPeriod = std::chrono::milliseconds(500);
-
-/// Numbers too small for full precision become zero on this thread: they slow arithmetic down a hundredfold,
-/// and a cloth at rest is full of them.
-void flush_subnormals() {
-#if defined(__SSE__)
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _mm_setcsr(_mm_getcsr() | 0x0040U);  // denormals are zero
-#endif
-}
 
 std::uint32_t server_ms() {
   const auto now = Clock::now().time_since_epoch();
@@ -74,7 +64,8 @@ void SceneRunner::run(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), ("weft " + name_).substr(0, 15).c_str());
   flush_subnormals();
   while (!stop.stop_requested()) {
-    for (const Task& task : wait_for_work(stop)) carry_out(task);
+    for (Task& task : wait_for_work(stop)) carry_out(task);
+    study_if_wanted();
     step_if_due();
     // Before the frame goes out: who has seen it must not be told an older step.
     frame_ = live_.simulation().step_count();
@@ -96,9 +87,11 @@ std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token&
   return std::exchange(waiting_, {});
 }
 
-void SceneRunner::carry_out(const Task& task) {
+void SceneRunner::carry_out(Task& task) {
   if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
     live_.apply(task.viewer, task.visit, *request);
+  } else if (auto* outcome = std::get_if<StudyOutcome>(&task.what)) {
+    live_.take_study(std::move(*outcome));
   } else if (std::holds_alternative<Join>(task.what)) {
     if (live_.empty()) stats_due_ = Clock::now();
     live_.add_viewer(task.viewer, task.visit);
@@ -123,6 +116,13 @@ void SceneRunner::step_if_due() {
     live_.set_slow(clock_.slow());
   }
   if (live_.unstable()) spdlog::error("scene {}: {}", name_, live_.unstable_message());
+}
+
+void SceneRunner::study_if_wanted() {
+  if (study_ || !live_.wants_study()) return;
+  study_.emplace(live_.simulation().description(), [this](StudyOutcome outcome) {
+    post({nullptr, 0, std::move(outcome)});
+  });
 }
 
 void SceneRunner::send_stats_if_due() {

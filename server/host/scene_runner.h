@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "host/live_scene.h"
 #include "host/step_clock.h"
+#include "host/study_thread.h"
 
 namespace weft::host {
 
@@ -58,15 +60,17 @@ class SceneRunner {
   struct Task {
     std::shared_ptr<Viewer> viewer;
     std::uint64_t visit;
-    std::variant<Join, Leave, SceneRequest> what;
+    std::variant<Join, Leave, SceneRequest, StudyOutcome> what;
   };
 
   void run(const std::stop_token& stop);
   std::vector<Task> wait_for_work(const std::stop_token& stop);
-  void carry_out(const Task& task);
+  void carry_out(Task& task);
+  void study_if_wanted();
   void step_if_due();
   void send_stats_if_due();
-  /// Comings and goings are never refused: there are no more of them than connections.
+  /// Comings, goings and the outcome of a study are never refused: there are no more of them than
+  /// connections.
   void post(Task task);
 
   const std::string name_, title_;
@@ -85,6 +89,7 @@ class SceneRunner {
   StepClock clock_;
   StepClock::TimePoint stats_due_{};
   bool running_ = false;
+  std::optional<StudyThread> study_;  ///< from when it was first wanted; given up with the runner
 
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -19,7 +19,8 @@ struct Seat {
   std::vector<int>
       policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
   std::vector<int> levels;  ///< what it is sent
-  bool wants_frame = true;  ///< even if the scene did not change
+  bool wants_curve = false;  ///< asked for the cost, and is told when it is known
+  bool wants_frame = true;   ///< even if the scene did not change
 };
 
 }  // namespace weft::host

@@ -156,6 +156,22 @@ IntegratorDescription read_integrator(const json& value, const std::string& path
   }
 }
 
+Quality read_quality(const json& value, const std::string& path, Report& report) {
+  constexpr Range kError{1e-6, 1};
+  constexpr Range kMilliseconds{0.01, 1000, "ms"};
+  Object object(value, path, report);
+  Quality quality;
+  const bool by_error = object.has("max_error"), by_time = object.has("max_ms");
+  double bound = 0;
+  if (object.number("max_error", bound, kError)) quality.max_error = bound;
+  if (object.number("max_ms", bound, kMilliseconds)) quality.max_ms = bound;
+  if (value.is_object() && by_error == by_time) {
+    report.add(path, std::string(by_error ? "has both max_error and" : "has neither max_error nor") +
+                         " max_ms; must have exactly one of them");
+  }
+  return quality;
+}
+
 LevelPolicy read_level_policy(const json& value, const std::string& path, Report& report) {
   constexpr Range kThreshold{1e-4, 1e6, "m"};
   constexpr Range kHysteresis{0, 0.9};

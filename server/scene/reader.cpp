@@ -111,6 +111,9 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
     if (const json* integrator = object.find("integrator")) {
       simulation.integrator = read_integrator(*integrator, "/integrator", report);
     }
+    if (const json* quality = object.find("quality")) {
+      scene.quality = read_quality(*quality, "/quality", report);
+    }
     object.number("time_step", simulation.time_step, kTimeStep);
     if (const json* policy = object.find("level_policy")) {
       simulation.level_policy = read_level_policy(*policy, "/level_policy", report);

@@ -29,6 +29,7 @@ std::optional<EffectDescription> read_effect(const nlohmann::json& value, const 
                                              Report& report);
 Wind read_wind(const nlohmann::json& value, const std::string& path, Report& report);
 IntegratorDescription read_integrator(const nlohmann::json& value, const std::string& path, Report& report);
+Quality read_quality(const nlohmann::json& value, const std::string& path, Report& report);
 LevelPolicy read_level_policy(const nlohmann::json& value, const std::string& path, Report& report);
 
 /// As above, of a document that has been read. `found` are problems its text had, `overflows` see Document.

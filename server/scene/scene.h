@@ -2,6 +2,7 @@
 /// Scene files: JSON -> a description that can be simulated, every error named. Format: scene.schema.json and
 /// README.
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,6 +19,13 @@ struct Problem {
   std::string text() const { return path.empty() ? message : path + ": " + message; }
 };
 
+/// What the server holds to by choosing how a scene is stepped: at most one of the two.
+struct Quality {
+  std::optional<double> max_error;  ///< of the steps, in cloth sizes: the cheapest way that meets it
+  std::optional<double> max_ms;     ///< wall time of a step: the most accurate way within it
+  bool asks() const { return max_error || max_ms; }
+};
+
 struct Scene {
   std::string name;                ///< preset or file name without extension: [a-z0-9-]{1,64}
   std::string title;               ///< one line for people
@@ -26,6 +34,7 @@ struct Scene {
   Vec3 camera_eye{0.0, 0.0, 5.0};  ///< where a page puts its camera at first, m
   Vec3 camera_target{0.0, 0.0, 0.0};
   SimulationDescription simulation;
+  Quality quality;  ///< asks for nothing: stepped as the simulation says
 };
 
 /// The scene, or everything that is wrong with it (all problems at once).

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <numeric>
 
 #include "cloth/simulation.h"
+#include "study/thread_time.h"
 #include "study/trajectory.h"
 
 namespace weft::study {
@@ -35,9 +35,9 @@ struct Variant {
     }
   }
   void step() {
-    const std::clock_t begin = std::clock();
+    const double begin = thread_time();
     simulation.step();
-    frames.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    frames.push_back(1e3 * (thread_time() - begin));
   }
 
   Simulation<float> simulation;

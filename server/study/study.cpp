@@ -6,8 +6,6 @@
 namespace weft::study {
 namespace {
 
-/// A single-precision run cannot be told from the answer much below its own rounding.
-constexpr double kSmallestError = 1e-6;  // rms, in cloth sizes
 constexpr double kReferenceShare = 0.6;  // of the budget
 
 /// A finer level takes about twice the share of the one below: more would leave the coarse ones unfinished.
@@ -95,8 +93,7 @@ Study study_cost(const SimulationDescription& description, const StudyPlan& plan
     level.level = plan.levels[i];
     const double left = begin + kReferenceShare * plan.budget - clock();
     const Allowance allowance{clock, clock() + left * share_of(plan.levels, i)};
-    level.reference =
-        find_reference(description, level.level, study.frames, kSmallestError / 10, allowance, watch);
+    level.reference = find_reference(description, level.level, study.frames, plan.target, allowance, watch);
     study.chaotic = study.chaotic || level.reference.chaotic;
   }
 

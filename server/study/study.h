@@ -16,6 +16,9 @@ struct StudyPlan {
   int frames = 120;    ///< steps of the scene; at most kMaxFrames
   double budget = 60;  ///< wall time for everything, s: three fifths for the references, then the runs. Two
                        ///< doublings a level and the run in hand are finished whatever they take.
+  /// A reference is good enough when halving its steps moves it by less, in cloth sizes. The default is a
+  /// tenth of what a single-precision run can be told apart by.
+  double target = 1e-7;
 };
 
 /// One candidate at one level, in single precision, as in service.

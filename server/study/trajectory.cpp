@@ -1,8 +1,9 @@
 #include "study/trajectory.h"
 
 #include <algorithm>
-#include <ctime>
 #include <random>
+
+#include "study/thread_time.h"
 
 namespace weft::study {
 namespace {
@@ -98,9 +99,9 @@ Trajectory simulate(SimulationDescription description, const RunPlan& plan, cons
   run.sheets = sheets_of(simulation);
   run.frames.push_back(frame_of(simulation));
   for (int frame = 1; frame <= plan.frames; ++frame) {
-    const std::clock_t begin = std::clock();
+    const double begin = thread_time();
     simulation.step();
-    run.step_seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    run.step_seconds.push_back(thread_time() - begin);
     run.finite = simulation.healthy();
     if (!run.finite) return run;
     run.frames.push_back(frame_of(simulation));

@@ -31,8 +31,8 @@ struct Trajectory {
   double time_step = 0;  ///< s, between frames
   std::vector<Sheet> sheets;
   std::vector<Frame> frames;
-  std::vector<double> step_seconds;  ///< processor time of each step alone, which other programs hardly
-                                     ///< disturb; nothing is kept or compared meanwhile
+  std::vector<double> step_seconds;  ///< this thread's processor time of each step alone, which other
+                                     ///< programs hardly disturb; nothing is kept or compared meanwhile
   int substeps = 0;                  ///< of the last step; the most of all cloths
   bool finite = true;
   bool complete = false;  ///< all frames asked for are here

@@ -18,6 +18,7 @@ SimulationDescription hung_cloth(int level) {
   scene.cloths = {cloth};
   scene.effects = {GravityEffect{}, DampingEffect{}, PaperWindEffect{0.01, false}};
   scene.wind = {{0.6, 0, -0.8}, 1.5};
+  scene.integrator = SymplecticEulerDescription{};
   return scene;
 }
 

@@ -73,6 +73,7 @@ SimulationDescription hung_cloth() {
   cloth.perturbation = 0.001;
   scene.cloths = {cloth};
   scene.effects = {GravityEffect{}, DampingEffect{}};
+  scene.integrator = SymplecticEulerDescription{};
   return scene;
 }
 

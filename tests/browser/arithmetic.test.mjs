@@ -1,6 +1,7 @@
 // The page's arithmetic: plain modules without a browser.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
+import {chartColumns, choiceFor, digits, neighbourText, percent} from '../../web/cost_curve.js';
 import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, triangleIndices} from '../../web/grid.js';
 import {Morph} from '../../web/morph.js';
 import {addressOfScene, readSettings} from '../../web/settings.js';
@@ -187,4 +188,46 @@ test('scene and quality of the page’s address', () => {
   const view = (text) => readSettings(new URL(`http://a/${text}`), 1).fieldOfView;
   assert.deepEqual(['', '?fov=75', '?fov=5', '?fov=wide'].map(view), [42, 75, 42, 42]);  // what makes no sense is the usual one
   assert.equal(addressOfScene(new URL('http://a/?server=ws://b:1&scene=x'), 'y').search, '?server=ws%3A%2F%2Fb%3A1&scene=y');
+});
+
+// --- The cost panel ---
+
+const point = (ms, error, more = {}) => ({integrator: 'xpbd', setting: `${ms} substeps`, ms, error, best: true, own: false, ...more});
+const curve = {
+  frames: 30, chaotic: false,
+  levels: [
+    {level: 4, space: 0.02, floor: 0, points: [point(1, 0.1), point(2, 0.01), point(3, 0.05, {best: false, own: true}), point(4, 0.001)]},
+    {level: 5, space: 0.005, floor: 0, points: [point(4, 0.08), point(8, 0.009), point(12, 0.05, {best: false, own: true}), point(16, 0.002)]},
+    {level: 6, space: 0, floor: 0, points: [point(16, 0.06), point(32, 0.007), point(48, 0, {best: false, own: true})]},
+  ],
+};
+
+test('what a level would choose is what the server chooses', () => {
+  const [, level] = curve.levels;
+  assert.equal(choiceFor(level, {max_error: 0.05}).ms, 8);
+  assert.equal(choiceFor(level, {max_error: 1e-6}).ms, 16);  // the nearest
+  assert.equal(choiceFor(level, {max_ms: 9}).ms, 8);
+  assert.equal(choiceFor(level, {max_ms: 9}, 2).ms, 4);
+  assert.equal(choiceFor(level, {max_ms: 1}).ms, 4);
+  assert.equal(choiceFor(level, {}).ms, 12);
+});
+
+test('what the next levels would cost and gain', () => {
+  const quality = {wish: {max_error: 0.05}, state: 'chosen', level: 5, ms_expected: 8, ms_measured: 12, error_expected: 0.009};
+  assert.equal(neighbourText(curve, quality, 1), 'Level 6: 4 × the time (48 ms), the finest grid known instead of 0.5 %; steps 0.7 % instead of 0.9 %.');
+  assert.equal(neighbourText(curve, quality, -1), 'Level 4: 0.25 × the time (3 ms), grid error 2 % instead of 0.5 %; steps 1 % instead of 0.9 %.');
+  assert.equal(neighbourText(curve, {...quality, level: 6}, 1), null);
+  assert.equal(neighbourText(curve, {...quality, level: 4}, -1), null);
+});
+
+test('the chart has times ascending, each kind in its column, and now', () => {
+  const quality = {ms_measured: 10, error_expected: 0.009};
+  assert.deepEqual(chartColumns(curve.levels[1], quality), [
+    [4, 8, 10, 12, 16], [0.08, 0.009, null, null, 0.002], [null, null, null, 0.05, null], [null, null, 0.009, null, null]]);
+  assert.deepEqual(chartColumns(curve.levels[2], {})[0], [16, 32]);  // an error of zero has no place
+});
+
+test('numbers for people', () => {
+  assert.deepEqual([0.00123, 0.1, 1, 0.0000123].map(percent), ['0.12 %', '10 %', '100 %', '0.0012 %']);
+  assert.deepEqual([123.4, 0, 0.00001234].map(digits), ['120', '0', '1.2e-5']);
 });

@@ -3,6 +3,7 @@
 import {mkdir} from 'node:fs/promises';
 import {join} from 'node:path';
 import {test} from 'node:test';
+import {fileURLToPath} from 'node:url';
 import {openPage, startServer, until} from './harness.mjs';
 
 const folder = process.env.WEFT_SCREENSHOTS;
@@ -10,7 +11,7 @@ const kWindow = {viewport: {width: 1280, height: 800}};
 
 test('screenshots', {timeout: 900_000}, async () => {
   await mkdir(folder, {recursive: true});
-  const server = await startServer(['flag', 'zheng2020-distance', 'zheng2020-ball']);
+  const server = await startServer(['flag', fileURLToPath(new URL('scenes/small.json', import.meta.url)), 'zheng2020-distance', 'zheng2020-ball']);
   const open = async (scene, options = {}) => {
     const {page} = await openPage(`${server.address}/?scene=${scene}`, {...kWindow, ...options});
     await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
@@ -33,6 +34,14 @@ test('screenshots', {timeout: 900_000}, async () => {
   const dark = await open('flag', {colorScheme: 'dark'});
   await save(dark, 'flag-dark', 3);
   await dark.close();
+
+  const cost = await open('small', {viewport: {width: 900, height: 860}});
+  await cost.click('#cost summary');
+  await cost.waitForSelector('#cost-chart canvas', {timeout: 300_000});
+  await cost.locator('#quality-set').scrollIntoViewIfNeeded();
+  await cost.focus('#stage');  // where Space pauses
+  await save(cost, 'cost', await time(cost) + 1);
+  await cost.close();
 
   const distance = await open('zheng2020-distance');
   for (const [key, name, level] of [['1', 'near', 6], ['2', 'middle', 5], ['3', 'far', 4]]) {

@@ -225,7 +225,7 @@ export function messageText(op, members = {}, id = undefined) {
  * @property {(frame: Frame) => void | Promise<void>} [onframe] the newest frame; acknowledged when this has returned (or its
  *   promise is settled), frames that arrive meanwhile replace each other
  * @property {(message: any) => void} [onmessage] every message that answers no request: `welcome`, `scene`, `event`,
- *   `stats`, `notice`, and `error` without `re`
+ *   `stats`, `curve`, `notice`, and `error` without `re`
  * @property {(state: 'open'|'waiting'|'closed', why: {code?: number, reason?: string, error?: Error, delay?: number}) => void} [onstate]
  *   `open` after each (re)connection, `waiting` before each attempt to reconnect (after `delay` ms), `closed` at the end
  * @property {(error: Error) => void} [onerror] malformed frames, and what onframe throws; default: console.error
@@ -367,6 +367,19 @@ export class WeftClient {
   /** @param {Vector} direction any length but zero @param {number} speed m/s */
   setWind(direction, speed) {
     return this.send('wind.set', { direction, speed });
+  }
+
+  /**
+   * Holds the scene to a quality, for all viewers; with neither member it is the scene's own again.
+   * @param {{maxError?: number, maxMs?: number}} wish share of the cloth's size, or ms a step; at most one of them
+   */
+  setQuality({ maxError, maxMs } = {}) {
+    return this.send('quality', { max_error: maxError, max_ms: maxMs });
+  }
+
+  /** Asks what accuracy costs: `onmessage` is given a `curve` as soon as it is measured. */
+  askCost() {
+    return this.send('cost');
   }
 
   pause() {

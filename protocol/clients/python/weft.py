@@ -233,7 +233,8 @@ async def connect(url: str, *, client: typing.Optional[str] = None, window: int 
     client      name told to the server
     window      unacknowledged frames, 1..8; 0: no flow control, the server sends as fast as it can
     timeout     s to wait for the connection, and for each reply
-    on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `notice`, `error`
+    on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `curve`,
+                `notice`, `error`
     """
     connection = Client(timeout, on_message)
     try:
@@ -394,6 +395,15 @@ class Client:
     async def set_wind(self, direction, speed: float) -> dict:
         """Direction of any length but zero; speed in m/s."""
         return await self.send("wind.set", direction=direction, speed=speed)
+
+    async def set_quality(self, *, max_error: typing.Optional[float] = None, max_ms: typing.Optional[float] = None) -> dict:
+        """Holds the scene to an error (share of the cloth's size) or to a time (ms a step), for all viewers; with neither it is
+        the scene's own again."""
+        return await self.send("quality", max_error=max_error, max_ms=max_ms)
+
+    async def ask_cost(self) -> dict:
+        """Asks what accuracy costs: `on_message` is given a `curve` as soon as it is measured."""
+        return await self.send("cost")
 
     async def pause(self) -> dict:
         return await self.send("pause")

@@ -122,7 +122,9 @@ TYPED_TEST(SimulationOf, ResetForgetsALevelStillWaiting) {
 // --- Commands ---
 
 TEST(SimulationCommands, ALevelIsReachedInTheNextStep) {
-  Simulation<double> simulation(busy_scene());
+  SimulationDescription scene = busy_scene();
+  scene.integrator = SymplecticEulerDescription{};
+  Simulation<double> simulation(scene);
   simulation.step();
   const int before = simulation.report(0).substeps;
   simulation.request_level(0, 6);
@@ -140,6 +142,36 @@ TEST(SimulationCommands, SubstepsCanBeFixedByTheScene) {
   Simulation<double> simulation(scene);
   simulation.step();
   EXPECT_EQ(simulation.report(0).substeps, 77);
+}
+
+TEST(SimulationCommands, AnIntegratorTakesOverInTheNextStepAndChangesNothingElse) {
+  Simulation<double> changed(busy_scene()), other(busy_scene());
+  run(changed, 5);
+  const Particles<double> before = changed.cloths()[0].particles();
+  changed.set_integrator(XpbdDescription{7});
+  EXPECT_TRUE(test::same_state(before, changed.cloths()[0].particles()));
+  changed.step();
+  EXPECT_EQ(changed.report(0).substeps, 7);
+  EXPECT_EQ(changed.step_count(), 6u);
+  // There and back between two steps is as if nothing had been said: these methods remember nothing.
+  run(other, 5);
+  other.set_integrator(XpbdDescription{7});
+  other.step();
+  other.set_integrator(BackwardEulerDescription{});
+  other.set_integrator(XpbdDescription{7});
+  run(other, 3);
+  run(changed, 3);
+  EXPECT_TRUE(test::same_state(changed.cloths()[0].particles(), other.cloths()[0].particles()));
+}
+
+TYPED_TEST(SimulationOf, ResetGoesBackToTheDescriptionsIntegrator) {
+  Simulation<TypeParam> simulation(busy_scene()), plain(busy_scene());
+  simulation.set_integrator(XpbdDescription{7});
+  run(simulation, 3);
+  simulation.reset();
+  run(simulation, 3);
+  run(plain, 3);
+  EXPECT_TRUE(test::same_state(simulation.cloths()[0].particles(), plain.cloths()[0].particles()));
 }
 
 TEST(SimulationCommands, WindTakesEffectInTheNextStep) {
@@ -216,6 +248,7 @@ TEST(SimulationReport, EnergyOfAnUndampedSwingStaysWithinASmallShare) {
   cloth.pins = {{0, 1, 0, 0}};
   scene.cloths = {cloth};
   scene.effects = {GravityEffect{}};
+  scene.integrator = SymplecticEulerDescription{};
   Simulation<double> simulation(scene);
   const auto energy = [&] {
     const ClothReport report = simulation.report(0);
@@ -274,8 +307,11 @@ TYPED_TEST(SimulationOf, ASplitOnABallLeavesNoNodeInside) {
 }
 
 TEST(SimulationBalls, ClothAndDynamicBallTogetherKeepTheirMomentum) {
-  // No gravity, a free sheet at rest, a ball of 0.2 kg at 2 m/s: what the ball loses the cloth has.
+  // No gravity, a free sheet at rest, a ball of 0.2 kg at 2 m/s: what the ball loses the cloth has. To
+  // rounding with an explicit method; implicit ones solve loosely, and BDF2 steps nodes in contact by another
+  // formula.
   SimulationDescription scene = busy_scene();
+  scene.integrator = SymplecticEulerDescription{};
   scene.effects.clear();
   scene.cloths[0].pins.clear();
   scene.balls[0] = ball_at({0.1, -0.05, 0.35}, 0.3, {0, 0, -2});

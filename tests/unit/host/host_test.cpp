@@ -81,6 +81,25 @@ TEST(HostOfScenes, GoesOnWhereItSlept) {
   EXPECT_LE(guest.reader.frames.front().stamp.frame, slept_at + 1);
 }
 
+TEST(HostOfScenes, StudiesASceneBesideItsSteps) {
+  scene::Scene small = hung_cloth();
+  ClothDescription& cloth = small.simulation.cloths[0];
+  cloth.min_level = cloth.max_level = cloth.initial_level = 3;
+  Host host;
+  host.add(small);
+  Guest guest(host, "hung"), other(host, "hung");
+  EXPECT_EQ(guest.ask(R"({"op":"cost","id":1})", 1).at("op"), "ok");
+  ASSERT_TRUE(guest.reader.wait_until([&] { return !guest.reader.last("curve").is_null(); }));
+  const json curve = guest.reader.last("curve");
+  ASSERT_EQ(curve.at("levels").size(), 1U) << curve;
+  EXPECT_EQ(curve.at("levels")[0].at("level"), 3);
+  EXPECT_EQ(curve.at("frames"), 30);  // half a second
+  // Asked for and known: the next is told at once.
+  EXPECT_EQ(other.ask(R"({"op":"cost","id":1})", 1).at("op"), "ok");
+  ASSERT_TRUE(other.reader.wait_until([&] { return !other.reader.last("curve").is_null(); }));
+  EXPECT_EQ(other.reader.last("curve"), curve);
+}
+
 TEST(HostOfScenes, CommandsTakeEffectAtTheStepTheReplyNames) {
   Host host;
   host.add(hung_cloth());

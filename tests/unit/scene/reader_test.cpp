@@ -40,9 +40,10 @@ TEST(Reader, DefaultsAreThoseOfTheDescription) {
   EXPECT_EQ(simulation.seed, 1u);
   EXPECT_EQ(simulation.level_policy.thresholds, (std::vector<double>{1, 10}));
   EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{6, 5, 4}));
-  const auto& euler = std::get<SymplecticEulerDescription>(simulation.integrator);
-  EXPECT_EQ(euler.substeps, 0);
-  EXPECT_EQ(euler.safety, 0.9);
+  const auto& bdf2 = std::get<Bdf2Description>(simulation.integrator);
+  EXPECT_EQ(bdf2.substeps, 1);
+  EXPECT_EQ(bdf2.tolerance, 0.02);
+  EXPECT_EQ(bdf2.newton_iterations, 2);
 }
 
 TEST(Reader, ClothFields) {
@@ -161,6 +162,16 @@ TEST(Reader, CameraEyeAndDistanceFollowEachOther) {
   const Scene both = read_good("everything");
   EXPECT_EQ(both.camera_distance, 4);
   EXPECT_EQ(both.camera_eye, Vec3(1, 2, 3));
+}
+
+TEST(Reader, QualityIsOneOfErrorAndTime) {
+  EXPECT_FALSE(read_good("least").quality.asks());
+  const Quality error = read_good("everything").quality;
+  EXPECT_EQ(error.max_error, 0.01);
+  EXPECT_FALSE(error.max_ms);
+  const Quality time = good(parse(R"({"cloths":[{}],"quality":{"max_ms":2}})", "b")).quality;
+  EXPECT_EQ(time.max_ms, 2);
+  EXPECT_FALSE(time.max_error);
 }
 
 TEST(Reader, AFilesNameBecomesTheScenesName) {
