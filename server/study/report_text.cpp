@@ -45,6 +45,8 @@ std::string_view name_of(Run::Status status) {
       return "done";
     case Run::Status::skipped:
       return "skipped: beyond the budget";
+    case Run::Status::no_reference:
+      return "not made: nothing to compare it with";
     case Run::Status::not_finite:
       return "went bad: not finite";
   }
@@ -107,9 +109,8 @@ std::string table(const Study& study) {
       return a->milliseconds < b->milliseconds;
     });
     for (const Run* run : runs) {
-      if (run->status == Run::Status::skipped) {
-        ++skipped;
-      } else {
+      if (run->status == Run::Status::skipped) ++skipped;
+      if (run->status == Run::Status::done || run->status == Run::Status::not_finite) {
         text += line_of(*run) + "\n";
       }
     }

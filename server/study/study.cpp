@@ -105,7 +105,11 @@ Study study_cost(const SimulationDescription& description, const StudyPlan& plan
     for (LevelStudy& level : study.levels) {
       Run& run = level.runs.emplace_back();
       run.candidate = candidate;
-      if (level.reference.usable() && finest.usable()) runner.run(level.reference, finest, run);
+      if (level.reference.usable() && finest.usable()) {
+        runner.run(level.reference, finest, run);
+      } else {
+        run.status = Run::Status::no_reference;
+      }
     }
   }
   for (LevelStudy& level : study.levels) {

@@ -25,8 +25,9 @@ struct StudyPlan {
 struct Run {
   enum class Status {
     done,
-    skipped,    ///< did not fit into what was left of the budget
-    not_finite  ///< its positions or velocities went bad
+    skipped,       ///< did not fit into what was left of the budget
+    no_reference,  ///< not made: its level's reference, or the finest level's, went bad
+    not_finite     ///< its positions or velocities went bad
   };
   Candidate candidate;
   Status status = Status::skipped;

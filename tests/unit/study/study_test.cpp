@@ -1,6 +1,8 @@
 // Which runs are made and which are best; the clock is made up, so that no result hangs on the machine.
 #include "study/study.h"
 
+#include <limits>
+
 #include "fixtures.h"
 
 namespace weft::study::test {
@@ -118,6 +120,15 @@ TEST(Study, FindsErrorsOfTimeAndOfTheGrid) {
     EXPECT_LE(std::abs(total.rms_position - time.rms_position), levels[0].space.rms_position);
     EXPECT_EQ(levels[1].runs[i].time.rms_position, levels[1].runs[i].total.rms_position);
   }
+}
+
+TEST(Study, WithoutAReferenceNoRunIsMadeAndThatIsSaid) {
+  SimulationDescription description = swing();
+  description.cloths[0].nodes.back().z() = std::numeric_limits<double>::quiet_NaN();
+  const Counted counted({3}, 200, description);
+  EXPECT_FALSE(counted.study.levels[0].reference.usable());
+  EXPECT_EQ(counted.count(Status::no_reference), static_cast<int>(counted.study.levels[0].runs.size()));
+  EXPECT_FALSE(counted.study.any_done());
 }
 
 TEST(Study, ARunThatGoesBadIsSaid) {
