@@ -1,8 +1,9 @@
 /// Weft beside Bullet's soft body and the paper's method, in one run on one thread: Markdown tables of time,
 /// strain and motion, then what must be shown and whether it holds.
-///   bench_engines [--scene H|B|W]... [--nodes N,N...] [--quick]
+///   bench_engines [--scene H|B|W]... [--nodes N,N...] [--budget SECONDS] [--quick]
 /// --quick: scene H, 33 and 65 nodes a side, no run longer than 20 s.
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -19,7 +20,9 @@ struct Options {
 };
 
 constexpr const char* kUsage =
-    "usage: bench_engines [--scene H|B|W]... [--nodes N,N...] [--quick], N among 9, 17, 33, 65, 129, 257\n";
+    "usage: bench_engines [--scene H|B|W]... [--nodes N,N...] [--budget SECONDS] [--quick], N among 9, 17, "
+    "33, "
+    "65, 129, 257\n";
 
 /// The level of so many nodes a side, or none.
 std::optional<int> level_of(const std::string& nodes) {
@@ -42,6 +45,8 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
     }
     if (arguments[i] == "--scene" && (value == "H" || value == "B" || value == "W")) {
       scenes += value;
+    } else if (arguments[i] == "--budget" && std::atof(value.c_str()) > 0) {
+      options.budget = std::atof(value.c_str());
     } else if (arguments[i] == "--nodes") {
       options.levels.clear();
       std::istringstream list(value);
