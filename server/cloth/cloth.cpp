@@ -33,36 +33,6 @@ void set(VectorField<Real>& field, int r, int c, const Vec3& value) {
   field.z.at(r, c) = static_cast<Real>(value.z());
 }
 
-/// Sets inverse masses: 0 for the nodes the pin regions hold.
-template <class Real>
-void pin(const std::vector<PinRegion>& pins, Particles<Real>& particles) {
-  const Grid& grid = particles.grid();
-  for_each_node(grid, [&](int r, int c, double, double) {
-    particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
-  });
-  constexpr double kTolerance = 1e-9;
-  for (const PinRegion& region : pins) {
-    bool any = false;
-    for_each_node(grid, [&](int r, int c, double u, double v) {
-      if (u < region.u_min - kTolerance || u > region.u_max + kTolerance || v < region.v_min - kTolerance ||
-          v > region.v_max + kTolerance) {
-        return;
-      }
-      particles.inverse_mass.at(r, c) = 0;
-      any = true;
-    });
-    if (any) continue;
-    const auto nearest = [](double low, double high, int nodes) {
-      return std::clamp(static_cast<int>(std::lround(0.5 * (low + high) * (nodes - 1))), 0, nodes - 1);
-    };
-    particles.inverse_mass.at(nearest(region.v_min, region.v_max, grid.rows),
-                              nearest(region.u_min, region.u_max, grid.cols)) = 0;
-  }
-  for_each_node(grid, [&](int r, int c, double, double) {
-    if (particles.inverse_mass.at(r, c) == Real(0)) set(particles.velocity, r, c, Vec3::Zero());
-  });
-}
-
 /// Start positions, without the random offsets.
 template <class Real>
 void place(const ClothDescription& description, Particles<Real>& particles) {
@@ -147,7 +117,7 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
   level_ = level;
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
-  pin(description_.pins, particles_);
+  pins_ = Pins<Real>(description_.pins, time_, particles_);
   springs_ =
       Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
   earlier_contacts_ = contact_counters();
@@ -156,11 +126,15 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::advance(const std::vector<Ball>& balls, const Wind& wind, double time, double dt) {
-  if (!balls.empty() && !contact_) contact_ = std::make_unique<BallContact<Real>>(particles_.grid());
-  if (contact_) contact_->begin_step(balls);
-  const Forces<Real> forces{&springs_, &effects_, {&description_, &wind, time}};
-  return integrator_->advance(particles_, forces, balls.empty() ? nullptr : contact_.get(), balls, time, dt);
+AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind& wind, double time,
+                                   double dt) {
+  if (!solids.empty() && !contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
+  if (contact_) contact_->begin_step(solids);
+  time_ = time + dt;
+  const Forces<Real> forces{
+      &springs_, &effects_, {&description_, &wind, time}, pins_.moving() ? &pins_ : nullptr};
+  return integrator_->advance(particles_, forces, solids.empty() ? nullptr : contact_.get(), solids, time,
+                              dt);
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "cloth/colliders.h"
 #include "cloth/integrators/integrator.h"
 
 namespace weft {
@@ -31,9 +32,9 @@ class Cloth {
     integrator_ = make_integrator<Real>(integrator);
   }
 
-  /// One step among the balls as they move in it; what the cloth gives them is kept, and theirs with
+  /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
   /// push_balls(). Several cloths may do it at the same time.
-  AdvanceReport advance(const std::vector<Ball>& balls, const Wind& wind, double time, double dt);
+  AdvanceReport advance(const std::vector<Solid>& solids, const Wind& wind, double time, double dt);
   /// Hands over the impulses of the last advance.
   void push_balls(Colliders& colliders) const;
 
@@ -45,11 +46,13 @@ class Cloth {
   int level_ = 0;
   std::optional<int> pending_level_;
   Particles<Real> particles_;
+  Pins<Real> pins_;
+  double time_ = 0;  ///< s, at the end of the last step
   Springs<Real> springs_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;
   std::unique_ptr<Integrator<Real>> integrator_;
-  std::unique_ptr<BallContact<Real>> contact_;  ///< made when the scene first has a ball
-  ContactCounters earlier_contacts_;            ///< at the levels left behind
+  std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
+  ContactCounters earlier_contacts_;        ///< at the levels left behind
 };
 
 extern template class Cloth<float>;

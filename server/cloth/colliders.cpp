@@ -2,16 +2,25 @@
 
 #include <algorithm>
 
+#include "cloth/path.h"
+
 namespace weft {
 namespace {
 
-Vec3 along_path(const std::vector<Waypoint>& path, double time) {
-  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& p) { return p.time > time; });
-  if (next == path.begin()) return next->position;
-  const Waypoint& before = *std::prev(next);
-  if (next == path.end()) return before.position;
-  return before.position +
-         (time - before.time) / (next->time - before.time) * (next->position - before.position);
+Solid solid_of(const ObstacleDescription& obstacle, std::size_t index) {
+  Solid solid;
+  solid.id = kFirstObstacle + static_cast<ColliderId>(index);
+  solid.friction = obstacle.friction;
+  solid.start = solid.position = obstacle.position;
+  if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
+    solid.shape = HalfSpace{};
+    solid.rotation = Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane->normal).toRotationMatrix();
+  } else {
+    const auto& box = std::get<BoxDescription>(obstacle.shape);
+    solid.shape = Box{box.size / 2};
+    solid.rotation = box.orientation.toRotationMatrix();
+  }
+  return solid;
 }
 
 template <class Balls>
@@ -21,8 +30,21 @@ auto find_ball(Balls& balls, BallId id) {
 
 }  // namespace
 
-Colliders::Colliders(const std::vector<BallDescription>& balls) {
+Solid Ball::solid() const {
+  return {.id = id,
+          .shape = Sphere{radius},
+          .friction = friction,
+          .yields = motion == BallDescription::Motion::dynamic,
+          .start = start,
+          .position = position,
+          .velocity = velocity};
+}
+
+Colliders::Colliders(const std::vector<BallDescription>& balls,
+                     const std::vector<ObstacleDescription>& obstacles) {
   for (const BallDescription& ball : balls) add(ball);
+  for (const ObstacleDescription& obstacle : obstacles)
+    obstacles_.push_back(solid_of(obstacle, obstacles_.size()));
 }
 
 const Ball* Colliders::find(BallId id) const {
@@ -101,10 +123,13 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
       target->reached = true;
     }
   }
+  solids_.clear();
+  for (const Ball& ball : balls_) solids_.push_back(ball.solid());
+  solids_.insert(solids_.end(), obstacles_.begin(), obstacles_.end());
 }
 
 void Colliders::push(const std::vector<Vec3>& impulses) {
-  for (std::size_t i = 0; i < impulses.size(); ++i) balls_[i].impulse += impulses[i];
+  for (std::size_t i = 0; i < balls_.size(); ++i) balls_[i].impulse += impulses[i];
 }
 
 void Colliders::end_step() {

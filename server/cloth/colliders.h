@@ -2,11 +2,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "cloth/contact/solid.h"
 #include "cloth/description.h"
 
 namespace weft {
 
-using BallId = std::uint32_t;
+using BallId = ColliderId;
 
 /// A ball as it is now. During a step it moves on a straight line from `start` to `position`.
 struct Ball {
@@ -21,18 +22,20 @@ struct Ball {
   Vec3 impulse{0, 0, 0};   ///< given by the cloths during the step, N s; taken up when the step ends
   std::vector<Waypoint> path;
 
-  /// Centre at `fraction` (0..1) of the step.
-  Vec3 at(double fraction) const { return start + fraction * (position - start); }
+  Solid solid() const;
 };
 
-/// The scene's balls. Ids count up from 1 and are never used again until a reset.
+/// The scene's balls and obstacles. Ids of balls count up from 1 and are never used again until a reset.
 class Colliders {
  public:
   Colliders() = default;
-  explicit Colliders(const std::vector<BallDescription>& balls);
+  explicit Colliders(const std::vector<BallDescription>& balls,
+                     const std::vector<ObstacleDescription>& obstacles = {});
 
   const std::vector<Ball>& balls() const { return balls_; }
   const Ball* find(BallId id) const;
+  /// All that the cloths may meet in the step that has begun: the balls in their order, then the obstacles.
+  const std::vector<Solid>& solids() const { return solids_; }
 
   BallId add(const BallDescription& ball);
   /// The ball becomes kinematic, goes to `target` within the next step and stays there. False if there is no
@@ -45,7 +48,7 @@ class Colliders {
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
   /// velocity.
   void begin_step(double time, double dt, const Vec3& gravity);
-  /// What one cloth gave to each ball in this step, N s; the order of the calls decides the last bits.
+  /// What one cloth gave to each solid in this step, N s; the order of the calls decides the last bits.
   void push(const std::vector<Vec3>& impulses);
   /// Dynamic balls take up the impulses the cloths gave them.
   void end_step();
@@ -60,6 +63,7 @@ class Colliders {
   void forget_target(BallId id);
 
   std::vector<Ball> balls_;
+  std::vector<Solid> obstacles_, solids_;
   std::vector<Target> targets_;
   BallId next_id_ = 1;
 };

@@ -54,10 +54,17 @@ struct Wind {
   Vec3 velocity() const { return speed * direction; }
 };
 
+/// A point passed at a time; linear between points, at rest before the first and after the last.
+struct Waypoint {
+  double time = 0.0;  ///< s, ascending
+  Vec3 position{0.0, 0.0, 0.0};
+};
+
 /// Nodes held where they are: all with u, v inside the closed rectangle, or the nearest one if there is none.
 /// (0, 0) is the top left corner, (1, 1) the bottom right one.
 struct PinRegion {
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< in [0, 1]
+  std::vector<Waypoint> path = {};  ///< how far they are from where they start, if they are moved
 };
 
 struct ClothDescription {
@@ -78,12 +85,6 @@ struct ClothDescription {
   std::vector<PinRegion> pins;
 };
 
-/// A point the ball passes at a time; linear between points, at rest before the first and after the last.
-struct Waypoint {
-  double time = 0.0;  ///< s, ascending
-  Vec3 position{0.0, 0.0, 0.0};
-};
-
 struct BallDescription {
   enum class Motion {
     kinematic,  ///< goes where it is told (velocity, path, commands); the cloth yields
@@ -96,6 +97,24 @@ struct BallDescription {
   double mass = 1.0;           ///< kg, > 0, dynamic balls only
   double friction = 0.0;       ///< Coulomb's coefficient between ball and cloth, >= 0; 0 in the paper
   std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
+};
+
+/// All space below a plane: a floor, a wall. `position` is one of its points.
+struct PlaneDescription {
+  Vec3 normal{0.0, 1.0, 0.0};  ///< unit, out of the solid
+  static constexpr const char* kName = "plane";
+};
+/// A solid box; `position` is its centre.
+struct BoxDescription {
+  Vec3 size{1.0, 1.0, 1.0};                         ///< lengths of its edges, m; > 0
+  Quaternion orientation = Quaternion::Identity();  ///< local to world
+  static constexpr const char* kName = "box";
+};
+/// Something that stands where it is; the cloth yields.
+struct ObstacleDescription {
+  std::variant<PlaneDescription, BoxDescription> shape;
+  Vec3 position{0.0, 0.0, 0.0};
+  double friction = 0.0;  ///< as a ball's
 };
 
 // --- How it is stepped ---
@@ -135,6 +154,7 @@ using IntegratorDescription =
 struct SimulationDescription {
   std::vector<ClothDescription> cloths;
   std::vector<BallDescription> balls;
+  std::vector<ObstacleDescription> obstacles;
   std::vector<EffectDescription> effects;
   Wind wind;
   IntegratorDescription integrator = Bdf2Description{};

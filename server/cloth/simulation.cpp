@@ -40,7 +40,7 @@ template <class Real>
 void Simulation<Real>::reset() {
   gravity_ = total_gravity(description_.effects);
   wind_ = description_.wind;
-  colliders_ = Colliders(description_.balls);
+  colliders_ = Colliders(description_.balls, description_.obstacles);
   cloths_ = make_cloths<Real>(description_);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;
@@ -82,7 +82,7 @@ template <class Real>
 void Simulation<Real>::advance_cloths(double dt) {
   const auto advance = [&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    last_advance_[cloth] = cloths_[cloth].advance(colliders_.balls(), wind_, time(), dt);
+    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), wind_, time(), dt);
   };
   int nodes = 0;
   for (const Cloth<Real>& cloth : cloths_) nodes += cloth.particles().grid().nodes();

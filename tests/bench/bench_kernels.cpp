@@ -1,7 +1,7 @@
 /// What the parts of a step cost, at each level: Google Benchmark, items are nodes.
 #include <benchmark/benchmark.h>
 
-#include "cloth/contact/ball_contact.h"
+#include "cloth/contact/contact.h"
 #include "cloth/diagnostics.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/refine.h"
@@ -97,11 +97,11 @@ BENCHMARK(merge_from)->DenseRange(kMinLevel + 1, kMaxLevel);
 /// Section 2.4 of one substep: `range(1)` is 0 for a ball out of reach, 1 for one that lies on the sheet.
 void ball_contact(benchmark::State& state) {
   Particles<Real> sheet = wavy_sheet(static_cast<int>(state.range(0)));
-  Ball ball;
-  ball.radius = 0.2;
+  Solid ball;
+  ball.shape = Sphere{0.2};
   ball.position = ball.start = {0.1, 0.1, state.range(1) == 1 ? -0.15 : -5.0};
-  std::vector<Ball> balls{ball};
-  BallContact<Real> contact(sheet.grid());
+  const std::vector<Solid> balls{ball};
+  Contact<Real> contact(sheet.grid());
   contact.begin_step(balls);
   for (auto _ : state) benchmark::DoNotOptimize(contact.resolve(sheet, balls, {0.0, 1.0}));
   count_nodes(state, sheet.grid());

@@ -14,13 +14,13 @@
 namespace weft {
 namespace {
 
-using Box = Eigen::AlignedBox3d;
+using Bounds = Eigen::AlignedBox3d;
 
 /// By how much the boxes in the trees are larger than what they hold, relative to the largest tile: a cloth
 /// moving at 5 m/s in substeps of 0.1 ms is fitted anew every tenth of them, one at rest never.
 constexpr double kMargin = 1.0 / 32;
 
-Box grown(const Box& box, double by) {
+Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
@@ -33,7 +33,7 @@ class TreeBox {
   TreeBox(const TreeBox&) = delete;  // FCL keeps pointers to the object and to its user data.
   TreeBox& operator=(const TreeBox&) = delete;
 
-  void set(const Box& box) {
+  void set(const Bounds& box) {
     shape_->side = box.sizes();
     shape_->computeLocalAABB();
     object_.setTranslation(box.center());
@@ -58,7 +58,7 @@ class Tree {
     registered_ = false;
     for (std::size_t i = 0; i < count; ++i) boxes_.push_back(std::make_unique<TreeBox>(static_cast<int>(i)));
   }
-  void set(std::size_t i, const Box& box) { boxes_[i]->set(box); }
+  void set(std::size_t i, const Bounds& box) { boxes_[i]->set(box); }
   /// Fits the tree to the boxes; it is built when they first have their places, which makes it a good one.
   void update() {
     if (registered_) {
@@ -81,9 +81,9 @@ class Tree {
 
 int index_of(const fcl::CollisionObjectd* object) { return *static_cast<const int*>(object->getUserData()); }
 
-/// FCL calls it for each tile and ball whose boxes overlap, in the order of its traversal.
-bool collect(fcl::CollisionObjectd* tile, fcl::CollisionObjectd* ball, void* pairs) {
-  static_cast<std::vector<TileBallPair>*>(pairs)->push_back({index_of(tile), index_of(ball)});
+/// FCL calls it for each tile and solid whose boxes overlap, in the order of its traversal.
+bool collect(fcl::CollisionObjectd* tile, fcl::CollisionObjectd* solid, void* pairs) {
+  static_cast<std::vector<TileSolidPair>*>(pairs)->push_back({index_of(tile), index_of(solid)});
   return false;  // go on
 }
 
@@ -99,10 +99,10 @@ std::vector<Tile> tiles_of(const Grid& grid) {
 }
 
 template <class Real>
-Box box_of(const Tile& tile, const VectorField<Real>& position) {
+Bounds box_of(const Tile& tile, const VectorField<Real>& position) {
   const int rows = tile.row_end - tile.row_begin, cols = tile.col_end - tile.col_begin;
   std::array<Real, kTileCells + 1> low{}, high{};  // of each column
-  Box box;
+  Bounds box;
   int axis = 0;
   for (const Field<Real>* field : {&position.x, &position.y, &position.z}) {
     kernels::column_extents(field->row(tile.row_begin) + tile.col_begin, rows, field->grid().stride, cols,
@@ -123,18 +123,22 @@ struct BroadPhase<Real>::Impl {
   /// Brings the trees and what overlaps in them up to date. Boxes are larger than what they hold by a margin,
   /// and stay as long as they hold it: from one substep to the next little moves. False if something has no
   /// finite place.
-  bool update(const VectorField<Real>& position, const std::vector<Ball>& balls, double from, double to) {
+  bool update(const VectorField<Real>& position, const std::vector<Solid>& solids, const Sweep& sweep) {
     const bool tiles_hold = tiles_still_hold(position);
     if (!tiles_hold && !fit_tiles(position)) return false;
-    place_balls(balls, from, to);
-    const bool balls_hold = balls_still_hold();
-    if (!balls_hold && !fit_balls()) return false;
-    if (tiles_hold && balls_hold) return true;
+    place_solids(solids, sweep);
+    const bool solids_hold = solids_still_hold();
+    if (!solids_hold && !fit_solids()) return false;
+    if (tiles_hold && solids_hold) return true;
     candidates.clear();
-    tile_tree.manager().collide(&ball_tree.manager(), &candidates, collect);
+    tile_tree.manager().collide(&solid_tree.manager(), &candidates, collect);
+    for (TileSolidPair& pair : candidates) pair.solid = bounded[static_cast<std::size_t>(pair.solid)];
+    for (int tile = 0; tile < static_cast<int>(tiles.size()); ++tile) {
+      for (const HalfSpaceBelow& half_space : half_spaces) candidates.push_back({tile, half_space.solid});
+    }
     // The tree's traversal depends on its history; the contacts must not.
-    std::sort(candidates.begin(), candidates.end(), [](const TileBallPair& a, const TileBallPair& b) {
-      return a.tile != b.tile ? a.tile < b.tile : a.ball < b.ball;
+    std::sort(candidates.begin(), candidates.end(), [](const TileSolidPair& a, const TileSolidPair& b) {
+      return a.tile != b.tile ? a.tile < b.tile : a.solid < b.solid;
     });
     return true;
   }
@@ -147,10 +151,10 @@ struct BroadPhase<Real>::Impl {
 
   bool fit_tiles(const VectorField<Real>& position) {
     fitted_positions = VectorField<Real>();
-    std::vector<Box> boxes;
+    std::vector<Bounds> boxes;
     double largest = 0;
     for (const Tile& tile : tiles) {
-      const Box box = box_of(tile, position);
+      const Bounds box = box_of(tile, position);
       if (!box.min().allFinite() || !box.max().allFinite()) return false;
       largest = std::max(largest, box.sizes().maxCoeff());
       boxes.push_back(box);
@@ -162,56 +166,86 @@ struct BroadPhase<Real>::Impl {
     return true;
   }
 
-  void place_balls(const std::vector<Ball>& balls, double from, double to) {
-    ball_boxes.clear();
-    for (const Ball& ball : balls) {
-      const Vec3 a = ball.at(from), b = ball.at(to);
-      ball_boxes.push_back(grown(Box(a.cwiseMin(b), a.cwiseMax(b)), ball.radius));
-    }
-  }
-
-  bool balls_still_hold() const {
-    return std::equal(fitted_balls.begin(), fitted_balls.end(), ball_boxes.begin(), ball_boxes.end(),
-                      [](const Box& fitted, const Box& now) { return fitted.contains(now); });
-  }
-
-  bool fit_balls() {
-    fitted_balls.clear();
-    ball_tree.resize(ball_boxes.size());
-    for (std::size_t i = 0; i < ball_boxes.size(); ++i) {
-      const Box& box = ball_boxes[i];
-      if (!box.min().allFinite() || !box.max().allFinite()) {
-        fitted_balls.clear();
-        return false;
+  void place_solids(const std::vector<Solid>& solids, const Sweep& sweep) {
+    const std::size_t bounded_before = bounded.size(), half_spaces_before = half_spaces.size();
+    solid_boxes.assign(solids.size(), Bounds());
+    bounded.clear();
+    half_spaces.clear();
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const PlacedShape from = solids[i].placed(sweep.from), to = solids[i].placed(sweep.to);
+      if (std::holds_alternative<HalfSpace>(to.shape)) {
+        const Vec3 normal = to.rotation.col(1);
+        half_spaces.push_back({static_cast<int>(i), normal, normal.dot(to.centre)});
+        continue;
       }
-      fitted_balls.push_back(grown(box, margin));
-      ball_tree.set(i, fitted_balls.back());
+      solid_boxes[i] = grown(from.bounds().merged(to.bounds()), sweep.reach);
+      bounded.push_back(static_cast<int>(i));
     }
-    ball_tree.update();
+    if (bounded.size() != bounded_before || half_spaces.size() != half_spaces_before) fitted_solids.clear();
+  }
+
+  bool solids_still_hold() const {
+    if (fitted_solids.size() != solid_boxes.size()) return false;
+    return std::all_of(bounded.begin(), bounded.end(), [&](int i) {
+      const auto solid = static_cast<std::size_t>(i);
+      return fitted_solids[solid].contains(solid_boxes[solid]);
+    });
+  }
+
+  bool fit_solids() {
+    fitted_solids.clear();
+    solid_tree.resize(bounded.size());
+    std::vector<Bounds> fitted(solid_boxes.size());
+    for (std::size_t i = 0; i < bounded.size(); ++i) {
+      const auto solid = static_cast<std::size_t>(bounded[i]);
+      if (!solid_boxes[solid].min().allFinite() || !solid_boxes[solid].max().allFinite()) return false;
+      fitted[solid] = grown(solid_boxes[solid], margin);
+      solid_tree.set(i, fitted[solid]);
+    }
+    solid_tree.update();
+    fitted_solids = std::move(fitted);
     return true;
   }
 
-  /// Those of the candidates whose boxes overlap without the margin.
+  /// Those of the candidates that overlap without the margin.
   void select(const VectorField<Real>& position) {
-    Box tile_box;
+    Bounds tile_box;
     int boxed = -1;
-    for (const TileBallPair& pair : candidates) {
+    for (const TileSolidPair& pair : candidates) {
       if (pair.tile != boxed) {
         tile_box = box_of(tiles[static_cast<std::size_t>(pair.tile)], position);
         boxed = pair.tile;
       }
-      if (tile_box.intersects(ball_boxes[static_cast<std::size_t>(pair.ball)])) pairs.push_back(pair);
+      if (overlaps(tile_box, pair.solid)) pairs.push_back(pair);
     }
   }
 
+  bool overlaps(const Bounds& tile, int solid) const {
+    const auto half_space = std::find_if(half_spaces.begin(), half_spaces.end(),
+                                         [&](const HalfSpaceBelow& h) { return h.solid == solid; });
+    if (half_space == half_spaces.end()) return tile.intersects(solid_boxes[static_cast<std::size_t>(solid)]);
+    const Vec3 half = tile.sizes() / 2;
+    return half_space->normal.dot(tile.center()) - half_space->normal.cwiseAbs().dot(half) <
+           half_space->offset;
+  }
+
+  /// All points whose product with the normal is less than the offset.
+  struct HalfSpaceBelow {
+    int solid;
+    Vec3 normal;
+    double offset;
+  };
+
   std::vector<Tile> tiles;
-  Tree tile_tree, ball_tree;
-  VectorField<Real> fitted_positions;    ///< of the nodes, when the tiles' boxes were fitted to them
-  double margin = 0;                     ///< by which the trees' boxes are larger on each side, m
-  std::vector<Box> ball_boxes;           ///< of the balls on their way
-  std::vector<Box> fitted_balls;         ///< the tree's
-  std::vector<TileBallPair> candidates;  ///< whose boxes in the trees overlap
-  std::vector<TileBallPair> pairs;
+  Tree tile_tree, solid_tree;
+  VectorField<Real> fitted_positions;  ///< of the nodes, when the tiles' solid_boxes were fitted to them
+  double margin = 0;                   ///< by which the trees' solid_boxes are larger on each side, m
+  std::vector<Bounds> solid_boxes;     ///< of the solids on their ways, by solid
+  std::vector<int> bounded;            ///< solids in the tree
+  std::vector<HalfSpaceBelow> half_spaces;
+  std::vector<Bounds> fitted_solids;      ///< the tree's solid_boxes, by solid
+  std::vector<TileSolidPair> candidates;  ///< whose solid_boxes in the trees overlap
+  std::vector<TileSolidPair> pairs;
 };
 
 template <class Real>
@@ -229,12 +263,12 @@ const std::vector<Tile>& BroadPhase<Real>::tiles() const {
 }
 
 template <class Real>
-const std::vector<TileBallPair>& BroadPhase<Real>::find_pairs(const VectorField<Real>& position,
-                                                              const std::vector<Ball>& balls, double from,
-                                                              double to) {
+const std::vector<TileSolidPair>& BroadPhase<Real>::find_pairs(const VectorField<Real>& position,
+                                                               const std::vector<Solid>& solids,
+                                                               const Sweep& sweep) {
   impl_->pairs.clear();
-  // A tree of boxes that are not finite need not end; the step's own check reports such a state.
-  if (!balls.empty() && impl_->update(position, balls, from, to)) impl_->select(position);
+  // A tree of solid_boxes that are not finite need not end; the step's own check reports such a state.
+  if (!solids.empty() && impl_->update(position, solids, sweep)) impl_->select(position);
   return impl_->pairs;
 }
 

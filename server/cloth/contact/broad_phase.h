@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "cloth/colliders.h"
+#include "cloth/contact/solid.h"
 #include "cloth/particles.h"
 
 namespace weft {
@@ -14,13 +14,20 @@ struct Tile {
 };
 inline constexpr int kTileCells = 8;
 
-/// Tile `tile` and ball `ball` (index into Colliders::balls) may touch: their boxes overlap.
-struct TileBallPair {
+/// Tile `tile` and solid `solid` (index into Colliders::solids) may touch: their boxes overlap.
+struct TileSolidPair {
   int tile = 0;
-  int ball = 0;
+  int solid = 0;
 };
 
-/// The paper's section 2.4, first half: a hierarchy of axis-aligned boxes over cloth tiles and balls (FCL's
+/// A part of a step, as fractions 0..1 of it, and how far nodes may come from beyond their tile's box in it,
+/// m.
+struct Sweep {
+  double from = 0, to = 1;
+  double reach = 0;
+};
+
+/// The paper's section 2.4, first half: a hierarchy of axis-aligned boxes over cloth tiles and solids (FCL's
 /// dynamic AABB tree) removes the parts that cannot touch. One per cloth and level; FCL is seen only by its
 /// .cpp.
 template <class Real>
@@ -32,10 +39,10 @@ class BroadPhase {
   BroadPhase& operator=(BroadPhase&&) noexcept;
 
   const std::vector<Tile>& tiles() const;
-  /// The pairs whose boxes overlap, with balls swept over `from`..`to` of the step (fractions 0..1), ordered
-  /// by tile, then ball. Valid until the next call.
-  const std::vector<TileBallPair>& find_pairs(const VectorField<Real>& position,
-                                              const std::vector<Ball>& balls, double from, double to);
+  /// The pairs whose boxes overlap, solids swept over their ways, ordered by tile, then solid. Half-spaces,
+  /// which no box holds, are compared with every tile. Valid until the next call.
+  const std::vector<TileSolidPair>& find_pairs(const VectorField<Real>& position,
+                                               const std::vector<Solid>& solids, const Sweep& sweep);
 
  private:
   struct Impl;

@@ -6,11 +6,9 @@
 namespace weft {
 namespace {
 
-/// Slower than this, m/s, friction holds: a creep too slow to see.
-constexpr double kStickingSpeed = 1e-4;
 /// Stiffness of a contact, as multiples of the links' and of the inertia's at the node. More would cost
 /// digits in single precision; the inertia's alone leaves a depth of at most g h^2 / 100 under a cloth's own
-/// weight, 27 micrometres at 60 Hz, which BallContact::resolve takes away.
+/// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
 constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
 
 template <class Real>
@@ -42,33 +40,31 @@ void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Vec3& n
 
 template <class Real>
 void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-                                     const std::vector<Ball>& balls, const Substep& substep) {
+                                     const std::vector<Solid>& solids, const Substep& substep) {
   std::swap(last_, constraints_);
   constraints_.clear();
   const double h = seconds_ = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
-  const auto key = [](const Touch& touch) { return std::pair(touch.node, touch.ball); };
+  const auto key = [](const Touch& touch) { return std::pair(touch.node, touch.collider); };
   const auto before = [&](const Constraint& c, const Touch& touch) { return key(c.touch) < key(touch); };
   for (const Touch& touch : touches) {
-    const auto ball =
-        std::find_if(balls.begin(), balls.end(), [&](const Ball& b) { return b.id == touch.ball; });
-    if (ball == balls.end()) continue;
+    const auto solid =
+        std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.id == touch.collider; });
+    if (solid == solids.end()) continue;
     const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
     const double force = same != last_.end() && key(same->touch) == key(touch) ? same->force : 0.0;
 
-    const Vec3 centre = ball->at(substep.to), move = centre - ball->at(substep.from);
+    const Vec3 move = solid->at(substep.to) - solid->at(substep.from);
     const Vec3 start = at(position, touch.node), guess = h * at(velocity, touch.node);
-    const Vec3 offset = start + guess - centre;
-    const double length = offset.norm();
-    const Vec3 normal = length > 0 ? Vec3(offset / length) : Vec3(0, 1, 0);
-    const double distance = ball->radius - normal.dot(start - centre);
-    // Where the ball or the node leaves, faster than gravity could bring them together again, nothing holds.
-    if (normal.dot(guess) > distance + standard_gravity().norm() * h * h) continue;
+    const Surface surface = solid->placed(substep.to).surface(start + guess);
+    const Vec3& normal = surface.normal;
+    // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
+    if (surface.distance > standard_gravity().norm() * h * h) continue;
     const Vec3 slip = guess - move;
     const double sliding = (slip - slip.dot(normal) * normal).norm();
-    constraints_.push_back({touch, static_cast<std::size_t>(ball - balls.begin()), normal, distance, move,
-                            ball->friction * force / std::max(sliding, kStickingSpeed * h)});
+    constraints_.push_back({touch, static_cast<std::size_t>(solid - solids.begin()), normal,
+                            normal.dot(guess) - surface.distance, move, solid->friction * force, sliding});
   }
   std::sort(constraints_.begin(), constraints_.end(),
             [&](const Constraint& a, const Constraint& b) { return key(a.touch) < key(b.touch); });
@@ -81,7 +77,10 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
   for (Constraint& c : constraints_) {
     const std::size_t i = c.touch.node;
     c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
-    const Vec3 moved = at(move, i), slip = c.ball_move - moved;
+    const Vec3 moved = at(move, i), slip = c.solid_move - moved;
+    // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
+    c.friction_stiffness = c.holds < c.stiffness * c.sliding ? c.holds / c.sliding : c.stiffness;
+    if (c.holds == 0) c.friction_stiffness = 0;
     add_block(blocks, i, c.normal, c.stiffness, c.friction_stiffness);
     add(b, i,
         c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal +
@@ -90,13 +89,13 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
 }
 
 template <class Real>
-void ContactConstraints<Real>::finish(kernels::Components<const Real> move, const std::vector<Ball>& balls,
+void ContactConstraints<Real>::finish(kernels::Components<const Real> move, const std::vector<Solid>& solids,
                                       std::vector<Vec3>& impulses) {
   for (Constraint& c : constraints_) {
-    const Vec3 moved = at(move, c.touch.node), slip = c.ball_move - moved;
+    const Vec3 moved = at(move, c.touch.node), slip = c.solid_move - moved;
     c.force = c.stiffness * (c.distance - c.normal.dot(moved));
-    if (balls[c.ball].motion == BallDescription::Motion::dynamic) {
-      impulses[c.ball] -=
+    if (solids[c.solid].yields) {
+      impulses[c.solid] -=
           seconds_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
     }
     c.force = std::max(0.0, c.force);

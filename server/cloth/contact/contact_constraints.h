@@ -1,20 +1,20 @@
 #pragma once
-#include "cloth/contact/ball_contact.h"
+#include "cloth/contact/contact.h"
 #include "cloth/kernels/link_kernels.h"
 
 namespace weft {
 
-/// Contacts as a part of an implicit step's linear system. A node that touched a ball at the end of the last
+/// Contacts as a part of an implicit step's linear system. A node that touched a solid at the end of the last
 /// step is held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along
-/// with the ball by Coulomb friction: a force of at most friction times the normal force, that of the step
-/// before. What little the spring gives, and nodes that arrive, BallContact::resolve puts right after the
-/// step; a node whose ball leaves it is free.
+/// with the solid by Coulomb friction: a force of at most friction times the normal force, that of the step
+/// before. What little the spring gives, and nodes that arrive, Contact::resolve puts right after the step; a
+/// node whose solid leaves it is free.
 template <class Real>
 class ContactConstraints {
  public:
   /// Nodes that touched, with forces from the last step; positions and velocities as the substep begins.
   void begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-             const std::vector<Ball>& balls, const Substep& substep);
+             const std::vector<Solid>& solids, const Substep& substep);
   void clear() { constraints_.clear(); }
   bool empty() const { return constraints_.empty(); }
 
@@ -23,8 +23,8 @@ class ContactConstraints {
   /// are.
   void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, const Real* diagonal,
               double links_stiffness, kernels::Components<const Real> move);
-  /// Reads the forces off the solution and adds the dynamic balls' share of momentum to `impulses`.
-  void finish(kernels::Components<const Real> move, const std::vector<Ball>& balls,
+  /// Reads the forces off the solution and adds the share of momentum of solids that yield to `impulses`.
+  void finish(kernels::Components<const Real> move, const std::vector<Solid>& solids,
               std::vector<Vec3>& impulses);
 
   /// Calls visit(node index) for every constrained node.
@@ -36,13 +36,15 @@ class ContactConstraints {
  private:
   struct Constraint {
     Touch touch;
-    std::size_t ball;  ///< index
+    std::size_t solid;  ///< index
     Vec3 normal;
-    double distance;            ///< that the node must move along the normal, m
-    Vec3 ball_move;             ///< in the substep, m
-    double friction_stiffness;  ///< N/m
-    double stiffness = 0;       ///< N/m
-    double force = 0;           ///< along the normal, N
+    double distance;                ///< that the node must move along the normal, m
+    Vec3 solid_move;                ///< in the substep, m
+    double holds;                   ///< at most, by friction, N
+    double sliding;                 ///< along the surface in the substep, if it goes on as before, m
+    double stiffness = 0;           ///< N/m
+    double friction_stiffness = 0;  ///< N/m
+    double force = 0;               ///< along the normal, N
   };
   std::vector<Constraint> constraints_, last_;
   double seconds_ = 0;  ///< of the substep

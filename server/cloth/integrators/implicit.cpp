@@ -53,9 +53,8 @@ Implicit<Real>::State::State(const Grid& grid, bool has_bending)
       move(vectors.vector(21)) {}
 
 template <class Real>
-AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
-                                      BallContact<Real>* contact, const std::vector<Ball>& balls, double time,
-                                      double dt) {
+AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
+                                      const std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = parameters_.substeps;
   const double h = dt / parameters_.substeps;
@@ -65,18 +64,19 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
     if (contact != nullptr) {
-      contacts.begin(contact->touches(), particles, balls, part);
+      contacts.begin(contact->touches(), particles, solids, part);
     } else {
       contacts.clear();
     }
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
+    forces.carry_pins(particles, forces.context.time);
     begin_substep(particles, h);
     report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
-      contacts.finish(state_->move, balls, contact->impulses());
-      report.nodes_in_contact = contact->resolve(particles, balls, part);
+      contacts.finish(state_->move, solids, contact->impulses());
+      report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     end_substep(particles, contact, h);
@@ -226,7 +226,7 @@ auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrea
 }
 
 template <class Real>
-void Implicit<Real>::end_substep(Particles<Real>& particles, const BallContact<Real>* contact, double h) {
+void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h) {
   State& s = *state_;
   const std::size_t count = particles.grid().size();
   kernels::scaled_difference<Real>(kernels::components(particles.velocity),

@@ -27,8 +27,8 @@ class Implicit final : public Integrator<Real> {
   Implicit(const char* name, const ImplicitParameters& parameters, bool second_order)
       : name_(name), parameters_(parameters), second_order_(second_order) {}
   const char* name() const override { return name_; }
-  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                        const std::vector<Ball>& balls, double time, double dt) override;
+  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
+                        const std::vector<Solid>& solids, double time, double dt) override;
   void restart() override { state_.reset(); }
 
  private:
@@ -72,7 +72,7 @@ class Implicit final : public Integrator<Real> {
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
   ChangeReport whole_change(const Springs<Real>& springs, double decrease);
   ChangeReport searched_change(const Springs<Real>& springs, double decrease);
-  void end_substep(Particles<Real>& particles, const BallContact<Real>* contact, double h);
+  void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
 
   const char* name_;
   ImplicitParameters parameters_;

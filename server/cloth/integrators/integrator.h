@@ -1,8 +1,9 @@
 #pragma once
 #include <memory>
 
-#include "cloth/contact/ball_contact.h"
+#include "cloth/contact/contact.h"
 #include "cloth/effects/effect.h"
+#include "cloth/pins.h"
 #include "cloth/springs.h"
 
 namespace weft {
@@ -13,6 +14,12 @@ struct Forces {
   const Springs<Real>* springs = nullptr;
   const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
   EffectContext context;
+  const Pins<Real>* pins = nullptr;  ///< if any of them moves
+
+  /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
+  void carry_pins(Particles<Real>& particles, double time) const {
+    if (pins != nullptr) pins->carry(particles, time);
+  }
 
   /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N.
   void sum(const Particles<Real>& particles, VectorField<Real>& force) const;
@@ -38,10 +45,10 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual const char* name() const = 0;
-  /// From `time` to `time + dt`. `contact` is nullptr when the scene has no balls; it and `balls` have begun
+  /// From `time` to `time + dt`. `contact` is nullptr when there are no solids; it and `solids` have begun
   /// the step.
-  virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                                const std::vector<Ball>& balls, double time, double dt) = 0;
+  virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
+                                const std::vector<Solid>& solids, double time, double dt) = 0;
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
 };

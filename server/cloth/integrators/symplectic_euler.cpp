@@ -44,7 +44,7 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 
 template <class Real>
 AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
-                                             BallContact<Real>* contact, const std::vector<Ball>& balls,
+                                             Contact<Real>* contact, const std::vector<Solid>& solids,
                                              double time, double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
@@ -59,12 +59,13 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   for (int s = 0; s < report.substeps; ++s) {
     const auto begin = Clock::now();
     forces.context.time = time + s * h;
+    forces.carry_pins(particles, time + (s + 1) * h);
     forces.sum(particles, force_);
     update(particles, force_, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact == nullptr) continue;
-    report.nodes_in_contact = contact->resolve(particles, balls, Substep::of(s, report.substeps, dt));
+    report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;

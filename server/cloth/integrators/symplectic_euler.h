@@ -16,8 +16,8 @@ class SymplecticEuler final : public Integrator<Real> {
  public:
   explicit SymplecticEuler(const SymplecticEulerDescription& description) : description_(description) {}
   const char* name() const override { return SymplecticEulerDescription::kName; }
-  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                        const std::vector<Ball>& balls, double time, double dt) override;
+  AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
+                        const std::vector<Solid>& solids, double time, double dt) override;
 
  private:
   SymplecticEulerDescription description_;

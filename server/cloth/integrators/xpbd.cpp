@@ -28,8 +28,8 @@ void make_acceleration(Particles<Real>& particles, double h) {
 }  // namespace
 
 template <class Real>
-AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, BallContact<Real>* contact,
-                                  const std::vector<Ball>& balls, double time, double dt) {
+AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
+                                  const std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = description_.substeps;
   const double h = dt / report.substeps;
@@ -42,6 +42,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
   for (int s = 0; s < report.substeps; ++s) {
     const auto begin = Clock::now();
     forces.context.time = time + s * h;
+    forces.carry_pins(particles, time + (s + 1) * h);
     const bool last = s + 1 == report.substeps;
     if (last) particles.acceleration = particles.velocity;
     substep(particles, forces, force_share, h);
@@ -49,7 +50,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact == nullptr) continue;
-    report.nodes_in_contact = contact->resolve(particles, balls, Substep::of(s, report.substeps, dt));
+    report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;

@@ -42,8 +42,8 @@ std::vector<std::pair<int, int>> held(const Cloth<Real>& cloth) {
 }
 
 void advance(Cloth<double>& cloth, int steps, const Wind& wind = {}) {
-  std::vector<Ball> no_balls;
-  for (int step = 0; step < steps; ++step) cloth.advance(no_balls, wind, step * kFrame, kFrame);
+  std::vector<Solid> no_solids;
+  for (int step = 0; step < steps; ++step) cloth.advance(no_solids, wind, step * kFrame, kFrame);
 }
 
 // --- Start ---

@@ -46,7 +46,7 @@ TEST(Colliders, AKinematicBallKeepsItsVelocityAndIgnoresGravity) {
   EXPECT_EQ(ball.start, Vec3(1, 2, 3));
   EXPECT_EQ(ball.position, Vec3(1.0625, 2, 2.875));
   EXPECT_EQ(ball.velocity, Vec3(4, 0, -8));
-  EXPECT_EQ(ball.at(0.5), Vec3(1.03125, 2, 2.9375));  // a straight line during the step
+  EXPECT_EQ(ball.solid().at(0.5), Vec3(1.03125, 2, 2.9375));  // a straight line during the step
 }
 
 TEST(Colliders, MoveGoesThereWithinTheNextStepAndStays) {

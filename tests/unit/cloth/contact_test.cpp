@@ -2,7 +2,7 @@
 // looked at.
 #include <gtest/gtest.h>
 
-#include "cloth/contact/ball_contact.h"
+#include "cloth/contact/contact.h"
 #include "cloth/diagnostics.h"
 #include "fixtures.h"
 
@@ -13,66 +13,68 @@ using test::each_node;
 using test::get;
 using test::set;
 
-Ball ball_at(const Vec3& centre, double radius) {
-  Ball ball;
+Solid ball_at(const Vec3& centre, double radius) {
+  Solid ball;
   ball.id = 1;
-  ball.radius = radius;
+  ball.shape = Sphere{radius};
   ball.position = ball.start = centre;
   return ball;
 }
 
+double radius_of(const Solid& ball) { return std::get<Sphere>(ball.shape).radius; }
+
 /// Nodes inside the ball by more than `slack`, in m.
 template <class Real>
-int nodes_inside(const Particles<Real>& particles, const Ball& ball, double slack) {
+int nodes_inside(const Particles<Real>& particles, const Solid& ball, double slack) {
   int count = 0;
   each_node(particles.grid(), [&](int r, int c) {
-    count += (particles.position_at(r, c) - ball.position).norm() < ball.radius - slack ? 1 : 0;
+    count += (particles.position_at(r, c) - ball.position).norm() < radius_of(ball) - slack ? 1 : 0;
   });
   return count;
 }
 
 template <class Real>
-class Contact : public ::testing::Test {
+class Contacts : public ::testing::Test {
  public:
   /// Lengths here are about 1 m.
   static constexpr double kRounding = 8 * double(std::numeric_limits<Real>::epsilon());
 };
 using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(Contact, Scalars);
+TYPED_TEST_SUITE(Contacts, Scalars);
 
-TYPED_TEST(Contact, PushesANodeBackToTheSurfaceAndTakesTheVelocityIntoTheBall) {
+TYPED_TEST(Contacts, PushesANodeBackToTheSurfaceAndTakesTheVelocityIntoTheBall) {
   // Node (4,4) of a flat sheet lies in its middle. The ball's centre is 0.3 m below it along (0,3,4)/5 turned
   // around: outward normal n = (0, 0.6, 0.8). v = (1,0,0) + 2 t - 3 n with t = (0, 0.8, -0.6): only -3 n
   // goes.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   const Vec3 n(0, 0.6, 0.8), t(0, 0.8, -0.6), along(1, 0, 0);
   set(sheet.velocity, 4, 4, along + 2 * t - 3 * n);
-  std::vector<Ball> balls{ball_at(-0.3 * n, 0.5)};
-  BallContact<TypeParam> contact(sheet.grid());
+  std::vector<Solid> balls{ball_at(-0.3 * n, 0.5)};
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_LT((sheet.position_at(4, 4) - 0.2 * n).norm(), this->kRounding);  // centre + 0.5 n
   EXPECT_LT((sheet.velocity_at(4, 4) - (along + 2 * t)).norm(), 4 * this->kRounding);
 }
 
-TYPED_TEST(Contact, KeepsAVelocityThatAlreadyLeaves) {
+TYPED_TEST(Contacts, KeepsAVelocityThatAlreadyLeaves) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {0.25, -0.5, 3});
-  std::vector<Ball> balls{ball_at({0, 0, -0.25}, 0.5)};
-  BallContact<TypeParam> contact(sheet.grid());
+  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_EQ(sheet.velocity_at(4, 4), Vec3(0.25, -0.5, 3));
   EXPECT_NEAR(sheet.position_at(4, 4).z(), 0.25, this->kRounding);
 }
 
-TYPED_TEST(Contact, TheVelocityThatCountsIsRelativeToTheBall) {
+TYPED_TEST(Contacts, TheVelocityThatCountsIsRelativeToTheBall) {
   // A resting node before a ball that comes up at 2 m/s: 2 m/s into the ball, so it leaves with the ball.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {0.5, 0, 0});
-  std::vector<Ball> balls{ball_at({0, 0, -0.25}, 0.5)};
+  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
   balls[0].velocity = {0, 0, 2};
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   contact.resolve(sheet, balls, {0.0, 1.0});
   EXPECT_LT((sheet.velocity_at(4, 4) - Vec3(0.5, 0, 2)).norm(), 4 * this->kRounding);
@@ -83,12 +85,12 @@ TYPED_TEST(Contact, TheVelocityThatCountsIsRelativeToTheBall) {
   EXPECT_EQ(sheet.velocity_at(4, 4), Vec3(0, 0, 3));
 }
 
-TYPED_TEST(Contact, UsesTheBallWhereItIsAtTheSubstepsEnd) {
+TYPED_TEST(Contacts, UsesTheBallWhereItIsAtTheSubstepsEnd) {
   // From z = -2 m to 0 in the step: at half of it, -1 m, the ball of 0.9 m does not yet touch the sheet.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
-  std::vector<Ball> balls{ball_at({0, 0, 0}, 0.9)};
+  std::vector<Solid> balls{ball_at({0, 0, 0}, 0.9)};
   balls[0].start = {0, 0, -2};
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 0.5}), 0);
   EXPECT_EQ(sheet.position_at(4, 4), Vec3(0, 0, 0));
@@ -96,13 +98,13 @@ TYPED_TEST(Contact, UsesTheBallWhereItIsAtTheSubstepsEnd) {
   EXPECT_NEAR(sheet.position_at(4, 4).z(), 0.4, this->kRounding);
 }
 
-TYPED_TEST(Contact, APinnedNodeStays) {
+TYPED_TEST(Contacts, APinnedNodeStays) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   sheet.inverse_mass.at(4, 4) = 0;
-  std::vector<Ball> balls{ball_at({0, 0, -0.25}, 0.5)};
-  balls[0].motion = BallDescription::Motion::dynamic;
+  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  balls[0].yields = true;
   balls[0].velocity = {0, 0, 2};
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   contact.resolve(sheet, balls, {0.0, 1.0});
   EXPECT_EQ(sheet.position_at(4, 4), Vec3(0, 0, 0));
@@ -110,69 +112,68 @@ TYPED_TEST(Contact, APinnedNodeStays) {
   EXPECT_EQ(contact.impulses()[0], Vec3(0, 0, 0));
 }
 
-TYPED_TEST(Contact, ANodeAtTheBallsCentreLeavesUpwards) {
+TYPED_TEST(Contacts, ANodeAtTheBallsCentreLeavesUpwards) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {1, -4, 0});
-  std::vector<Ball> balls{ball_at({0, 0, 0}, 0.5)};
-  BallContact<TypeParam> contact(sheet.grid());
+  std::vector<Solid> balls{ball_at({0, 0, 0}, 0.5)};
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0, 0.5, 0)).norm(), this->kRounding);
   EXPECT_LT((sheet.velocity_at(4, 4) - Vec3(1, 0, 0)).norm(), this->kRounding);
 }
 
-TYPED_TEST(Contact, LeavesNoNodeInsideTheBall) {
+TYPED_TEST(Contacts, LeavesNoNodeInsideTheBall) {
   // A sheet crumpled into a 2 m box around a ball of 0.7 m; a rounding of its radius is all that may be
   // missing.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
   test::randomise(sheet.position, -1, 1, 1);
-  std::vector<Ball> balls{ball_at({0.1, -0.05, 0.02}, 0.7)};
+  std::vector<Solid> balls{ball_at({0.1, -0.05, 0.02}, 0.7)};
   const int inside = nodes_inside(sheet, balls[0], 0);
   ASSERT_GT(inside, 500);
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), inside);
   EXPECT_EQ(nodes_inside(sheet, balls[0], this->kRounding), 0);
   EXPECT_EQ(contact.counters().nodes_in_contact, std::uint64_t(inside));
 }
 
-TYPED_TEST(Contact, TwoBallsPushTheirOwnNodes) {
+TYPED_TEST(Contacts, TwoBallsPushTheirOwnNodes) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});  // nodes 1 m apart
-  std::vector<Ball> balls{ball_at({-2, 0, -0.25}, 0.5), ball_at({2, 1, 0.25}, 0.5)};
+  std::vector<Solid> balls{ball_at({-2, 0, -0.25}, 0.5), ball_at({2, 1, 0.25}, 0.5)};
   balls[1].id = 2;
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 2);
   EXPECT_NEAR(sheet.position_at(4, 2).z(), 0.25, this->kRounding);   // x = -2, y = 0
   EXPECT_NEAR(sheet.position_at(3, 6).z(), -0.25, this->kRounding);  // x = 2, y = 1
 }
 
-TYPED_TEST(Contact, NodesThatTilesShareAreResolvedOnce) {
+TYPED_TEST(Contacts, NodesThatTilesShareAreResolvedOnce) {
   // 17 x 17 nodes make 2 x 2 tiles of 8 x 8 cells that share node (8,8): it gives its momentum to the ball
   // once.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(17, 17, {16, 16});
   sheet.mass.fill(TypeParam(0.5));
   sheet.inverse_mass.fill(2);
   set(sheet.velocity, 8, 8, {0, 0, -4});
-  std::vector<Ball> balls{ball_at({0, 0, -0.25}, 0.5)};
-  balls[0].motion = BallDescription::Motion::dynamic;
-  balls[0].mass = 3;
-  BallContact<TypeParam> contact(sheet.grid());
+  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  balls[0].yields = true;
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_EQ(contact.counters().nodes_in_contact, 1u);
   EXPECT_NEAR(contact.impulses()[0].z(), -2.0, this->kRounding);  // 0.5 kg * 4 m/s
 }
 
-TYPED_TEST(Contact, TheBallGetsTheMomentumTheClothLoses) {
+TYPED_TEST(Contacts, TheBallGetsTheMomentumTheClothLoses) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
   test::share_mass(sheet, 0.4, Discretization::continuum);
   test::randomise(sheet.velocity, -3, 3, 2);
-  std::vector<Ball> balls{ball_at({0.1, 0.1, -0.2}, 0.5)};
-  balls[0].motion = BallDescription::Motion::dynamic;
+  std::vector<Solid> balls{ball_at({0.1, 0.1, -0.2}, 0.5)};
+  balls[0].yields = true;
   balls[0].velocity = {0, 1, 2};
   const Vec3 before = linear_momentum(sheet);
-  BallContact<TypeParam> contact(sheet.grid());
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   ASSERT_GT(contact.resolve(sheet, balls, {0.0, 1.0}), 50);
   const Vec3 lost = before - linear_momentum(sheet);
@@ -182,13 +183,13 @@ TYPED_TEST(Contact, TheBallGetsTheMomentumTheClothLoses) {
 
 // --- Only struck tiles are looked at ---
 
-TYPED_TEST(Contact, TilesFarFromTheBallAreNeverExamined) {
+TYPED_TEST(Contacts, TilesFarFromTheBallAreNeverExamined) {
   // 65 x 65 nodes on 2 m x 2 m: 8 x 8 tiles of 8 cells, 0.25 m wide. A ball of 0.05 m in the middle of one
   // tile, just touching the sheet's plane, lies 0.075 m from that tile's edge: one tile of 64, 9 x 9 of 4225
   // nodes.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
-  std::vector<Ball> balls{ball_at({0.125, 0.125, 0.04}, 0.05)};
-  BallContact<TypeParam> contact(sheet.grid());
+  std::vector<Solid> balls{ball_at({0.125, 0.125, 0.04}, 0.05)};
+  Contact<TypeParam> contact(sheet.grid());
   contact.begin_step(balls);
   ASSERT_EQ(contact.broad_phase().tiles().size(), 64u);
   contact.resolve(sheet, balls, {0.0, 1.0});
@@ -213,16 +214,17 @@ TYPED_TEST(Contact, TilesFarFromTheBallAreNeverExamined) {
 
 /// The pairs by the plain definition: the box of a tile's nodes meets the box of the ball along its way.
 template <class Real>
-std::vector<TileBallPair> overlaps(const std::vector<Tile>& tiles, const VectorField<Real>& position,
-                                   const std::vector<Ball>& balls, double from, double to) {
-  std::vector<TileBallPair> pairs;
+std::vector<TileSolidPair> overlaps(const std::vector<Tile>& tiles, const VectorField<Real>& position,
+                                    const std::vector<Solid>& balls, double from, double to) {
+  std::vector<TileSolidPair> pairs;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
     Eigen::AlignedBox3d box;
     for (int r = tiles[tile].row_begin; r < tiles[tile].row_end; ++r) {
       for (int c = tiles[tile].col_begin; c < tiles[tile].col_end; ++c) box.extend(get(position, r, c));
     }
     for (std::size_t ball = 0; ball < balls.size(); ++ball) {
-      const Vec3 reach = Vec3::Constant(balls[ball].radius), a = balls[ball].at(from), b = balls[ball].at(to);
+      const Vec3 reach = Vec3::Constant(radius_of(balls[ball])), a = balls[ball].at(from),
+                 b = balls[ball].at(to);
       const Eigen::AlignedBox3d swept(Vec3(a.cwiseMin(b) - reach), Vec3(a.cwiseMax(b) + reach));
       if (box.intersects(swept)) pairs.push_back({int(tile), int(ball)});
     }
@@ -268,18 +270,18 @@ TYPED_TEST(BroadPhasePairs, AreThoseOfTheBoxesThatOverlap) {
       set(sheet.position, r, c,
           sheet.position_at(r, c) + shift + Vec3(0, 0, 0.2 * std::sin(0.3 * r + 0.2 * c + trial)));
     });
-    std::vector<Ball> balls(std::size_t(trial % 6));
-    for (Ball& ball : balls) {
+    std::vector<Solid> balls(std::size_t(trial % 6));
+    for (Solid& ball : balls) {
       ball = ball_at(point(), size(random));
       ball.start = point();
     }
     const double from = trial % 4 / 4.0, to = from + 0.25;
     const auto expected = overlaps(broad_phase.tiles(), sheet.position, balls, from, to);
-    const auto& pairs = broad_phase.find_pairs(sheet.position, balls, from, to);
+    const auto& pairs = broad_phase.find_pairs(sheet.position, balls, {from, to});
     ASSERT_EQ(pairs.size(), expected.size()) << "trial " << trial;
     for (std::size_t i = 0; i < pairs.size(); ++i) {  // ordered by tile, then ball
       EXPECT_EQ(pairs[i].tile, expected[i].tile);
-      EXPECT_EQ(pairs[i].ball, expected[i].ball);
+      EXPECT_EQ(pairs[i].solid, expected[i].solid);
     }
     found += pairs.size();
   }
@@ -289,30 +291,30 @@ TYPED_TEST(BroadPhasePairs, AreThoseOfTheBoxesThatOverlap) {
 TYPED_TEST(BroadPhasePairs, SeeAFastBallAllAlongItsWay) {
   // From 5 m before the sheet to 5 m behind it in one step: neither end touches, the way between does.
   const Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
-  std::vector<Ball> balls{ball_at({0.125, 0.125, -5}, 0.05)};
+  std::vector<Solid> balls{ball_at({0.125, 0.125, -5}, 0.05)};
   BroadPhase<TypeParam> broad_phase(sheet.grid());
-  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, 0, 1).empty());
+  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 1}).empty());
   balls[0].start = {0.125, 0.125, 5};
-  EXPECT_EQ(broad_phase.find_pairs(sheet.position, balls, 0, 1).size(), 1u);
-  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, 0, 0.25).empty());  // still 2.5 m away
+  EXPECT_EQ(broad_phase.find_pairs(sheet.position, balls, {0, 1}).size(), 1u);
+  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 0.25}).empty());  // still 2.5 m away
 }
 
 TYPED_TEST(BroadPhasePairs, FollowBallsThatComeAndGo) {
   const Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(17, 17, {2, 2});
   BroadPhase<TypeParam> broad_phase(sheet.grid());
-  std::vector<Ball> balls;
-  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, 0, 1).empty());
+  std::vector<Solid> balls;
+  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 1}).empty());
   balls = {ball_at({-0.5, 0.5, 0}, 0.1), ball_at({0.5, 0.5, 0}, 0.1), ball_at({0.5, -0.5, 0}, 0.1)};
-  EXPECT_EQ(broad_phase.find_pairs(sheet.position, balls, 0, 1).size(), 3u);
+  EXPECT_EQ(broad_phase.find_pairs(sheet.position, balls, {0, 1}).size(), 3u);
   balls.erase(balls.begin());
-  const auto& pairs = broad_phase.find_pairs(sheet.position, balls, 0, 1);
+  const auto& pairs = broad_phase.find_pairs(sheet.position, balls, {0, 1});
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].tile, 1);  // top right; now the first ball
-  EXPECT_EQ(pairs[0].ball, 0);
+  EXPECT_EQ(pairs[0].solid, 0);
   EXPECT_EQ(pairs[1].tile, 3);
-  EXPECT_EQ(pairs[1].ball, 1);
+  EXPECT_EQ(pairs[1].solid, 1);
   balls.clear();
-  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, 0, 1).empty());
+  EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 1}).empty());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ template <class Real>
 struct Rig {
   ClothDescription cloth;
   Wind wind;
-  std::vector<Ball> balls;
+  std::vector<Solid> solids;
   Particles<Real> particles;
   Springs<Real> springs;
   std::vector<std::unique_ptr<Effect<Real>>> effects;
@@ -30,7 +30,7 @@ struct Rig {
     cloth.discretization = discretization;
   }
   AdvanceReport advance(double time, double dt) {
-    return integrator->advance(particles, {&springs, &effects, {&cloth, &wind, time}}, nullptr, balls, time,
+    return integrator->advance(particles, {&springs, &effects, {&cloth, &wind, time}}, nullptr, solids, time,
                                dt);
   }
 };

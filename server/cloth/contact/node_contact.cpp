@@ -1,0 +1,146 @@
+#include "cloth/contact/node_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+/// Projections onto one solid after another before a node between overlapping solids is led straight out of
+/// all of them.
+constexpr int kProjections = 4;
+/// A direction shorter than this part of a unit vector is none.
+constexpr double kNoDirection = 1e-6;
+
+}  // namespace
+
+template <class Real>
+bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
+                                std::vector<Touch>& touches) {
+  bool met = stop_at_first(solids, impulses, touches);
+  Vec3 normals(0, 0, 0);  // of all solids it was found in
+  for (int round = 0; round < kProjections; ++round) {
+    bool moved = false;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const MovingSolid& moving = solids[i];
+      Surface surface = moving.shape.surface(position_);
+      if (!(surface.distance < 0)) continue;
+      const Vec3 held = lose_velocity(*moving.solid, surface.normal, impulses[i]);
+      if (!held.isZero(0)) {
+        set_position(position_ - seconds_ * held);
+        surface = moving.shape.surface(position_);
+      }
+      put_outside(moving.shape, position_, surface.normal, -surface.distance);
+      if (round == 0) touches.push_back(touch(*moving.solid));
+      normals += surface.normal;
+      moved = true;
+    }
+    met = met || moved;
+    if (!moved || solids.size() == 1) return met;  // outside the only solid there is
+  }
+  lead_out(solids, normals);
+  return true;
+}
+
+/// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
+template <class Real>
+bool NodeContact<Real>::stop_at_first(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
+                                      std::vector<Touch>& touches) {
+  std::optional<Hit> first;
+  std::size_t which = 0;
+  Vec3 begin(0, 0, 0);  // of the way, as seen from the solid where it ends up
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!solids[i].fast) continue;
+    const Vec3 seen = position_ - move_ + solids[i].move;
+    if (solids[i].shape.contains(seen)) continue;
+    const std::optional<Hit> hit = solids[i].shape.first_hit(seen, position_);
+    if (!hit || (first && first->fraction <= hit->fraction)) continue;
+    first = hit;
+    which = i;
+    begin = seen;
+  }
+  if (!first) return false;
+
+  const MovingSolid& moving = solids[which];
+  const Vec3 way = position_ - begin, normal = first->normal;
+  const double inward = way.dot(normal);
+  const Vec3 along = way - inward * normal;
+  const double slide = along.norm();
+  const double held = slide > 0 ? std::min(1.0, std::max(0.0, -moving.solid->friction * inward) / slide) : 0;
+  lose_velocity(*moving.solid, normal, impulses[which]);
+  const Vec3 end = begin + first->fraction * way + (1 - first->fraction) * (1 - held) * along;
+  put_outside(moving.shape, end, normal, std::max(0.0, -moving.shape.surface(end).distance));
+  touches.push_back(touch(*moving.solid));
+  return true;
+}
+
+/// Takes away the velocity, relative to the solid's, that points against `normal`, and what friction then
+/// takes of the rest, which is returned; `impulse` gets the momentum if the solid yields.
+template <class Real>
+Vec3 NodeContact<Real>::lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse) {
+  const Vec3 velocity = particles_.velocity_at(row_, col_);
+  const Vec3 relative = velocity - solid.velocity;
+  const double inward = relative.dot(normal);
+  if (!(inward < 0)) return Vec3::Zero();
+  const Vec3 stopped = inward * normal, sliding = relative - stopped;
+  const double speed = solid.friction > 0 ? sliding.norm() : 0.0;
+  const Vec3 held =
+      speed > 0 ? Vec3(std::min(1.0, -solid.friction * inward / speed) * sliding) : Vec3(0, 0, 0);
+  const Vec3 lost = stopped + held, kept = velocity - lost;
+  particles_.velocity.x.at(row_, col_) = static_cast<Real>(kept.x());
+  particles_.velocity.y.at(row_, col_) = static_cast<Real>(kept.y());
+  particles_.velocity.z.at(row_, col_) = static_cast<Real>(kept.z());
+  if (solid.yields) impulse += double(particles_.mass.at(row_, col_)) * lost;
+  return held;
+}
+
+/// Overlapping solids hand a node to each other. All are convex: along one ray none is entered twice, if the
+/// ray leads away from half-spaces.
+template <class Real>
+void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const Vec3& sum_of_normals) {
+  Vec3 direction = sum_of_normals;
+  for (const MovingSolid& moving : solids) {
+    if (!std::holds_alternative<HalfSpace>(moving.shape.shape)) continue;
+    const Surface surface = moving.shape.surface(position_);
+    direction -= std::min(0.0, direction.dot(surface.normal)) * surface.normal;
+    put_outside(moving.shape, position_, surface.normal, std::max(0.0, -surface.distance));
+    if (direction.norm() < kNoDirection) direction = surface.normal.unitOrthogonal();
+  }
+  direction = direction.norm() < kNoDirection ? Vec3(0, 1, 0) : direction.normalized();
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const MovingSolid& moving : solids) {
+      if (!moving.shape.contains(position_)) continue;
+      const double way = moving.shape.way_out(position_, direction);
+      if (!std::isfinite(way)) continue;  // rounding put it back: the next step's projections lift it
+      put_outside(moving.shape, position_, direction, way);
+      moved = true;
+    }
+  }
+}
+
+/// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up outside.
+template <class Real>
+void NodeContact<Real>::put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction,
+                                    double distance) {
+  double margin = (from.cwiseAbs().sum() + (from - shape.centre).norm() + distance) *
+                  double(std::numeric_limits<Real>::epsilon()) / 2;
+  do {
+    set_position(from + (distance + margin) * direction);
+    margin *= 2;
+  } while (shape.contains(position_));
+}
+
+template <class Real>
+void NodeContact<Real>::set_position(const Vec3& target) {
+  particles_.position.x.at(row_, col_) = static_cast<Real>(target.x());
+  particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
+  particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
+  position_ = particles_.position_at(row_, col_);
+}
+
+template class NodeContact<float>;
+template class NodeContact<double>;
+
+}  // namespace weft

@@ -1,0 +1,52 @@
+#pragma once
+#include <vector>
+
+#include "cloth/contact/contact.h"
+
+namespace weft {
+
+/// A solid in a substep.
+struct MovingSolid {
+  const Solid* solid;
+  PlacedShape shape;  ///< at the substep's end
+  Vec3 move;          ///< of its centre in the substep, m
+  bool fast;          ///< nodes might pass through it unseen: their ways are looked at
+};
+
+/// One free node while its contacts in a substep are resolved.
+template <class Real>
+class NodeContact {
+ public:
+  /// `move` is the node's in the substep.
+  NodeContact(Particles<Real>& particles, int row, int col, const Vec3& move, double seconds)
+      : particles_(particles),
+        row_(row),
+        col_(col),
+        position_(particles.position_at(row, col)),
+        move_(move),
+        seconds_(seconds) {}
+
+  /// Brings the node out of all solids, and back from beyond those it passed through; `impulses`, by solid,
+  /// get what it gives them, `touches` what it met. False if it met none.
+  bool resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
+               std::vector<Touch>& touches);
+
+ private:
+  bool stop_at_first(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
+                     std::vector<Touch>& touches);
+  Vec3 lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse);
+  void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
+  void lead_out(const std::vector<MovingSolid>& solids, const Vec3& sum_of_normals);
+  void set_position(const Vec3& target);
+  Touch touch(const Solid& solid) const { return {particles_.grid().index(row_, col_), solid.id}; }
+
+  Particles<Real>& particles_;
+  int row_, col_;
+  Vec3 position_, move_;
+  double seconds_;
+};
+
+extern template class NodeContact<float>;
+extern template class NodeContact<double>;
+
+}  // namespace weft

@@ -1,0 +1,123 @@
+#include "cloth/contact/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// All in the shape's own frame.
+
+Surface surface_of(const Sphere& sphere, const Vec3& point) {
+  const double length = point.norm();
+  return {length - sphere.radius, length > 0 ? Vec3(point / length) : Vec3(0, 1, 0)};
+}
+
+Surface surface_of(const HalfSpace&, const Vec3& point) { return {point.y(), Vec3(0, 1, 0)}; }
+
+Surface surface_of(const Box& box, const Vec3& point) {
+  const Vec3 beyond = point.cwiseAbs() - box.half;
+  const Vec3 sign = point.unaryExpr([](double x) { return x < 0 ? -1.0 : 1.0; });
+  int axis = 0;
+  const double deepest = beyond.maxCoeff(&axis);
+  if (deepest <= 0) return {deepest, Vec3(sign[axis] * Vec3::Unit(axis))};
+  const Vec3 outside = beyond.cwiseMax(0.0);
+  const double distance = outside.norm();
+  return {distance, Vec3(outside.cwiseProduct(sign) / distance)};
+}
+
+std::optional<Hit> hit_of(const Sphere& sphere, const Vec3& from, const Vec3& way) {
+  // |from + t way| = radius, the smaller root, in the form that loses no digits when the way is long.
+  const double a = way.squaredNorm(), b = from.dot(way),
+               c = from.squaredNorm() - sphere.radius * sphere.radius;
+  const double discriminant = b * b - a * c;
+  if (!(b < 0) || !(discriminant >= 0)) return {};
+  const double t = std::max(0.0, c / (-b + std::sqrt(discriminant)));
+  if (!(t <= 1)) return {};
+  return Hit{t, (from + t * way).normalized()};
+}
+
+std::optional<Hit> hit_of(const HalfSpace&, const Vec3& from, const Vec3& way) {
+  if (!(way.y() < 0) || !(from.y() + way.y() <= 0)) return {};
+  return Hit{std::max(0.0, from.y() / -way.y()), Vec3(0, 1, 0)};
+}
+
+std::optional<Hit> hit_of(const Box& box, const Vec3& from, const Vec3& way) {
+  // Slabs (Kay and Kajiya 1986).
+  double enter = 0, leave = 1;
+  Vec3 normal = surface_of(box, from).normal;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0) {
+      if (std::abs(from[axis]) > box.half[axis]) return {};
+      continue;
+    }
+    const double side = way[axis] > 0 ? 1.0 : -1.0;
+    const double in = (-side * box.half[axis] - from[axis]) / way[axis];
+    if (in > enter) {
+      enter = in;
+      normal = -side * Vec3::Unit(axis);
+    }
+    leave = std::min(leave, (side * box.half[axis] - from[axis]) / way[axis]);
+  }
+  if (!(enter <= leave)) return {};
+  return Hit{enter, normal};
+}
+
+double way_out_of(const Sphere& sphere, const Vec3& origin, const Vec3& direction) {
+  const double along = origin.dot(direction);
+  return -along +
+         std::sqrt(std::max(0.0, along * along - origin.squaredNorm() + sphere.radius * sphere.radius));
+}
+
+double way_out_of(const HalfSpace&, const Vec3& origin, const Vec3& direction) {
+  return direction.y() > 0 ? std::max(0.0, -origin.y() / direction.y()) : kInfinity;
+}
+
+double way_out_of(const Box& box, const Vec3& origin, const Vec3& direction) {
+  double out = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0) continue;
+    const double side = direction[axis] > 0 ? 1.0 : -1.0;
+    out = std::min(out, (side * box.half[axis] - origin[axis]) / direction[axis]);
+  }
+  return std::max(0.0, out);
+}
+
+}  // namespace
+
+Surface PlacedShape::surface(const Vec3& point) const {
+  const Vec3 local = rotation.transpose() * (point - centre);
+  Surface found = std::visit([&](const auto& s) { return surface_of(s, local); }, shape);
+  found.normal = rotation * found.normal;
+  return found;
+}
+
+std::optional<Hit> PlacedShape::first_hit(const Vec3& from, const Vec3& to) const {
+  const Vec3 local = rotation.transpose() * (from - centre), way = rotation.transpose() * (to - from);
+  std::optional<Hit> hit = std::visit([&](const auto& s) { return hit_of(s, local, way); }, shape);
+  if (hit) hit->normal = rotation * hit->normal;
+  return hit;
+}
+
+double PlacedShape::way_out(const Vec3& origin, const Vec3& direction) const {
+  const Vec3 local = rotation.transpose() * (origin - centre), ray = rotation.transpose() * direction;
+  return std::visit([&](const auto& s) { return way_out_of(s, local, ray); }, shape);
+}
+
+Eigen::AlignedBox3d PlacedShape::bounds() const {
+  Vec3 half = Vec3::Constant(kInfinity);
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) half = Vec3::Constant(sphere->radius);
+  if (const auto* box = std::get_if<Box>(&shape)) half = rotation.cwiseAbs() * box->half;
+  return {centre - half, centre + half};
+}
+
+double inner_radius(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
+  return kInfinity;
+}
+
+}  // namespace weft

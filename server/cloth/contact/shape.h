@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+#include <variant>
+
+#include "cloth/vec3.h"
+
+namespace weft {
+
+/// Centred at the origin of its own frame.
+struct Sphere {
+  double radius = 0;  ///< m
+};
+/// All below y = 0 of its own frame.
+struct HalfSpace {};
+/// Centred, edges along its own axes.
+struct Box {
+  Vec3 half{0, 0, 0};  ///< half the lengths of its edges, m
+};
+using Shape = std::variant<Sphere, HalfSpace, Box>;
+
+/// The point of a surface next to some point.
+struct Surface {
+  double distance = 0;   ///< to the surface, m; negative inside
+  Vec3 normal{0, 1, 0};  ///< unit, outwards: the point lies at surface point + distance * normal
+};
+
+/// Where a way first meets a surface.
+struct Hit {
+  double fraction = 0;  ///< of the way
+  Vec3 normal{0, 1, 0};
+};
+
+/// A shape where it is at some time.
+struct PlacedShape {
+  Shape shape;
+  Vec3 centre{0, 0, 0};
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its own axes in the world
+
+  /// At a sphere's very centre the normal points upwards; deep in a box towards the nearest face.
+  Surface surface(const Vec3& point) const;
+  bool contains(const Vec3& point) const { return surface(point).distance < 0; }
+  /// Where the straight way from `from`, outside, to `to` first enters; none if it never does.
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
+  /// Where the ray from `origin`, inside, leaves: the distance along the unit `direction`.
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  /// Infinite for a half-space.
+  Eigen::AlignedBox3d bounds() const;
+};
+
+/// Half of the shape's smallest width, m: a node that moves much less in a substep cannot pass through.
+double inner_radius(const Shape& shape);
+
+}  // namespace weft

@@ -1,0 +1,80 @@
+#include "cloth/pins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/path.h"
+
+namespace weft {
+namespace {
+
+/// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays.
+std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
+  constexpr double kTolerance = 1e-9;
+  const auto inside = [](double x, double min, double max) {
+    return x >= min - kTolerance && x <= max + kTolerance;
+  };
+  std::vector<std::size_t> nodes;
+  for (int r = 0; r < grid.rows; ++r) {
+    if (!inside(static_cast<double>(r) / (grid.rows - 1), region.v_min, region.v_max)) continue;
+    for (int c = 0; c < grid.cols; ++c) {
+      if (inside(static_cast<double>(c) / (grid.cols - 1), region.u_min, region.u_max)) {
+        nodes.push_back(grid.index(r, c));
+      }
+    }
+  }
+  if (!nodes.empty()) return nodes;
+  const auto nearest = [](double low, double high, int count) {
+    return std::clamp(static_cast<int>(std::lround(0.5 * (low + high) * (count - 1))), 0, count - 1);
+  };
+  return {grid.index(nearest(region.v_min, region.v_max, grid.rows),
+                     nearest(region.u_min, region.u_max, grid.cols))};
+}
+
+template <class Real>
+Vec3 get(const VectorField<Real>& field, std::size_t i) {
+  return {double(field.x.row(0)[i]), double(field.y.row(0)[i]), double(field.z.row(0)[i])};
+}
+
+template <class Real>
+void set(VectorField<Real>& field, std::size_t i, const Vec3& value) {
+  field.x.row(0)[i] = static_cast<Real>(value.x());
+  field.y.row(0)[i] = static_cast<Real>(value.y());
+  field.z.row(0)[i] = static_cast<Real>(value.z());
+}
+
+}  // namespace
+
+template <class Real>
+Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles) {
+  const Grid& grid = particles.grid();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
+  }
+  for (const PinRegion& region : regions) {
+    const std::vector<std::size_t> nodes = nodes_in(region, grid);
+    for (const std::size_t node : nodes) {
+      particles.inverse_mass.row(0)[node] = Real(0);
+      set(particles.velocity, node, Vec3::Zero());
+    }
+    if (region.path.empty()) continue;
+    Path path{region.path, {}};
+    const Vec3 offset = along_path(region.path, time);
+    for (const std::size_t node : nodes) path.nodes.push_back({node, get(particles.position, node) - offset});
+    end_of_motion_ = std::max(end_of_motion_, region.path.back().time);
+    carried_.push_back(std::move(path));
+  }
+}
+
+template <class Real>
+void Pins<Real>::carry(Particles<Real>& particles, double time) const {
+  for (const Path& path : carried_) {
+    const Vec3 offset = along_path(path.points, time);
+    for (const Carried& carried : path.nodes) set(particles.position, carried.node, carried.origin + offset);
+  }
+}
+
+template class Pins<float>;
+template class Pins<double>;
+
+}  // namespace weft

@@ -1,0 +1,174 @@
+// Continuous collision, obstacles, and nodes between two solids.
+#include <gtest/gtest.h>
+
+#include "cloth/contact/contact.h"
+#include "cloth/simulation.h"
+#include "fixtures.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+using test::set;
+
+constexpr double kFrame = 1.0 / 60;
+
+Solid moving_ball(double radius, const Vec3& start, const Vec3& velocity) {
+  Solid ball;
+  ball.id = 1;
+  ball.shape = Sphere{radius};
+  ball.start = start;
+  ball.position = start + kFrame * velocity;
+  ball.velocity = velocity;
+  return ball;
+}
+Solid floor_at(double height, double friction = 0) {
+  Solid floor;
+  floor.id = kFirstObstacle;
+  floor.shape = HalfSpace{};
+  floor.start = floor.position = {0, height, 0};
+  floor.friction = friction;
+  return floor;
+}
+
+template <class Real>
+class ContinuousContact : public ::testing::Test {
+ public:
+  /// Lengths here are below 4 m.
+  static constexpr double kRounding = 32 * double(std::numeric_limits<Real>::epsilon());
+};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(ContinuousContact, Scalars);
+
+TYPED_TEST(ContinuousContact, ABallOf200MetresASecondCarriesEveryNodeInItsWay) {
+  // 3.3 m in the step, from 1.7 m behind the sheet to 1.6 m before it. The sheet rests: each node within the
+  // ball's radius of its way is met by the front half, at depth sqrt(R^2 - d^2), and carried; the others
+  // stay.
+  constexpr double kRadius = 0.3;
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
+  const Particles<TypeParam> before = sheet;
+  std::vector<Solid> solids{moving_ball(kRadius, {0.02, 0.03, -1.7}, {0, 0, 200})};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  contact.resolve(sheet, solids, {0, 1, kFrame});
+  int carried = 0;
+  each_node(sheet.grid(), [&](int r, int c) {
+    const Vec3 place = before.position_at(r, c);
+    const double beside = (place - Vec3(0.02, 0.03, 0)).norm();
+    if (beside >= kRadius) {
+      EXPECT_EQ(sheet.position_at(r, c), place);
+      return;
+    }
+    ++carried;
+    // Frictionless: it loses the speed along the normal and leaves on the tangent, outwards.
+    const double depth = std::sqrt(kRadius * kRadius - beside * beside);
+    const Vec3 normal = Vec3(place.x() - 0.02, place.y() - 0.03, depth) / kRadius;
+    const Vec3 way(0, 0, -200 * kFrame);  // as seen from the ball
+    const Vec3 met = solids[0].position + kRadius * normal;
+    const double rounding = this->kRounding * 4 * kRadius / depth;  // of a steep surface's place
+    const double left = 1 - (1.7 - depth) / (200 * kFrame);
+    EXPECT_LT((sheet.position_at(r, c) - met - left * (way - way.dot(normal) * normal)).norm(), rounding);
+    EXPECT_LT((sheet.velocity_at(r, c) - 200 * normal.z() * normal).norm(), 200 * rounding);
+  });
+  EXPECT_GT(carried, 60);  // pi 0.3^2 / 0.0625^2 = 72
+}
+
+TYPED_TEST(ContinuousContact, FrictionTakesThemAlong) {
+  // The coefficient is so large that friction takes all sliding: each node stays where the ball met it.
+  constexpr double kRadius = 0.3;
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
+  const Particles<TypeParam> before = sheet;
+  std::vector<Solid> solids{moving_ball(kRadius, {0, 0, -1.7}, {0, 0, 200})};
+  solids[0].friction = 1e6;
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  contact.resolve(sheet, solids, {0, 1, kFrame});
+  each_node(sheet.grid(), [&](int r, int c) {
+    const Vec3 place = before.position_at(r, c);
+    const double beside = place.norm();
+    if (beside > 0.95 * kRadius) return;
+    const Vec3 met(place.x(), place.y(),
+                   solids[0].position.z() + std::sqrt(kRadius * kRadius - beside * beside));
+    EXPECT_LT((sheet.position_at(r, c) - met).norm(), this->kRounding);
+    EXPECT_LT((sheet.velocity_at(r, c) - Vec3(0, 0, 200)).norm(), 200 * this->kRounding);
+  });
+}
+
+TYPED_TEST(ContinuousContact, ANodeShotThroughABoardStopsAtIt) {
+  // A node at 100 m/s has gone 1.67 m, from 0.5 m over the board, 2 cm thick, to 1.17 m under it.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  set(sheet.position, 4, 4, {0.1, 0.5 - 100 * kFrame, 0.2});
+  set(sheet.velocity, 4, 4, {3, -100, 0});
+  Solid board;
+  board.id = kFirstObstacle;
+  board.shape = Box{{0.5, 0.01, 0.5}};
+  std::vector<Solid> solids{board};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  contact.resolve(sheet, solids, {0, 1, kFrame});
+  // It keeps its 3 m/s along the board.
+  EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.01, 0.2)).norm(), this->kRounding);
+  EXPECT_LT((sheet.velocity_at(4, 4) - Vec3(3, 0, 0)).norm(), 100 * this->kRounding);
+}
+
+TYPED_TEST(ContinuousContact, WaysAreTakenFromTheStartsWhereTheyAreGiven) {
+  // The node's velocity says nothing of the way it came: through the ball, from the other side.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  VectorField<TypeParam> start = sheet.position;
+  set(start, 4, 4, {0, 0, 2});
+  set(sheet.position, 4, 4, {0, 0, -2});
+  std::vector<Solid> solids{moving_ball(0.5, {0, 0, 0}, {0, 0, 0})};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}, &start), 1);
+  EXPECT_LT((sheet.position_at(4, 4) - Vec3(0, 0, 0.5)).norm(), this->kRounding);
+}
+
+TYPED_TEST(ContinuousContact, WhatFliesTogetherDoesNotMeet) {
+  // Sheet and ball, 0.1 m apart, both at 100 m/s.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(17, 17, {2, 2});
+  each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {0, 0, 100}); });
+  const Particles<TypeParam> before = sheet;
+  const double last = -100 * kFrame - 0.3;
+  std::vector<Solid> solids{moving_ball(0.2, {0, 0, last}, {0, 0, 100})};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 0);
+  EXPECT_TRUE(test::same_state(sheet, before));
+}
+
+TYPED_TEST(ContinuousContact, AFloorHoldsEveryNode) {
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});  // upright, y from -1 to 1
+  each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {2, -1, 0}); });
+  std::vector<Solid> solids{floor_at(-0.5, 0.25)};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 8 * 33);  // rows below: (33 - 1) / 4
+  each_node(sheet.grid(), [&](int r, int c) {
+    EXPECT_GE(sheet.position_at(r, c).y(), -0.5);
+    const bool below = r >= 25;
+    // Coulomb: 0.25 of the 1 m/s lost goes from the 2 m/s.
+    EXPECT_LT((sheet.velocity_at(r, c) - (below ? Vec3(1.75, 0, 0) : Vec3(2, -1, 0))).norm(),
+              this->kRounding);
+  });
+}
+
+TYPED_TEST(ContinuousContact, ANodePinchedBetweenBallAndFloorLeavesBoth) {
+  // The ball reaches 0.05 m into the floor.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
+  each_node(sheet.grid(), [&](int r, int c) {
+    const Vec3 place = sheet.position_at(r, c);
+    set(sheet.position, r, c, {place.x(), -0.01, place.y()});
+  });
+  std::vector<Solid> solids{moving_ball(0.3, {0.01, 0.25, 0.02}, {0, 0, 0}), floor_at(0)};
+  Contact<TypeParam> contact(sheet.grid());
+  contact.begin_step(solids);
+  contact.resolve(sheet, solids, {0, 1, kFrame});
+  each_node(sheet.grid(), [&](int r, int c) {
+    EXPECT_GE(solids[0].placed(1).surface(sheet.position_at(r, c)).distance, 0);
+    EXPECT_GE(solids[1].placed(1).surface(sheet.position_at(r, c)).distance, 0);
+  });
+}
+
+}  // namespace
+}  // namespace weft
