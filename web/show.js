@@ -1,6 +1,7 @@
 import {BallsView} from './balls_view.js';
 import {ClothView, clothMaterials} from './cloth_view.js';
 import {Loupe} from './loupe.js';
+import {ObstaclesView} from './obstacles_view.js';
 import {Timeline} from './timeline.js';
 import {weaveTextures} from './weave.js';
 import {WindArrow} from './wind_arrow.js';
@@ -22,12 +23,13 @@ export class Show {
     this.wireframe = options.wireframe;
     this.timeline = new Timeline();
     this.balls = new BallsView();
+    this.obstacles = new ObstaclesView();
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
     this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
     this.materials.fabric.polygonOffset = this.wireframe;
-    stage.scene.add(this.balls.group);
+    stage.scene.add(this.balls.group, this.obstacles.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
     this.description = null;
@@ -43,6 +45,7 @@ export class Show {
     for (const view of this.cloths.values()) view.dispose();
     this.cloths.clear();
     this.balls.clear();
+    this.obstacles.show(message.obstacles ?? []);
     for (const description of message.cloths) {
       const view = new ClothView(description, this.materials, this.instant);
       view.wireframe = this.wireframe;

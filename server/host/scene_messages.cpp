@@ -23,6 +23,21 @@ json cloths_json(const SimulationDescription& description) {
   return cloths;
 }
 
+json obstacle_json(const ObstacleDescription& obstacle) {
+  json message{{"position", vector_json(obstacle.position)}};
+  if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
+    message["shape"] = plane->kName;
+    message["normal"] = vector_json(plane->normal);
+  } else {
+    const auto& box = std::get<BoxDescription>(obstacle.shape);
+    const Quaternion& q = box.orientation;
+    message["shape"] = box.kName;
+    message["size"] = vector_json(box.size);
+    message["quaternion"] = {q.w(), q.x(), q.y(), q.z()};
+  }
+  return message;
+}
+
 json effects_json(const SimulationDescription& description) {
   json effects = json::array();
   for (const EffectDescription& effect : description.effects) {
@@ -54,7 +69,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
                        const SceneState& state, const Seat& seat) {
   const SimulationDescription& description = simulation.description();
   const LevelPolicy& policy = description.level_policy;
-  const json message = {
+  json message = {
       {"op", "scene"},
       {"name", scene.name},
       {"title", scene.title},
@@ -74,6 +89,9 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
         {"eye", vector_json(scene.camera_eye)},
         {"target", vector_json(scene.camera_target)},
         {"level", seat.levels}}}};
+  for (const ObstacleDescription& obstacle : description.obstacles) {
+    message["obstacles"].push_back(obstacle_json(obstacle));
+  }
   return message.dump();
 }
 

@@ -41,7 +41,8 @@ Material read_material(const json& value, const std::string& path, Report& repor
   return material;
 }
 
-/// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
+}  // namespace
+
 Quaternion read_orientation(const json& value, const std::string& path, Report& report) {
   constexpr Range kDegrees{-360, 360, "degrees"};
   Object object(value, path, report);
@@ -62,6 +63,8 @@ Quaternion read_orientation(const json& value, const std::string& path, Report& 
   return Quaternion(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis));
 }
 
+namespace {
+
 /// One side of a pin's region: a number, or [from, to].
 void read_span(Object& pin, const char* key, double& min, double& max) {
   constexpr Range kShare{0, 1};
@@ -77,7 +80,7 @@ void read_span(Object& pin, const char* key, double& min, double& max) {
   }
 }
 
-/// A corner's or an edge's name, or {"u", "v"}.
+/// A corner's or an edge's name, or {"u", "v", "path"}.
 PinRegion read_pin(const json& value, const std::string& path, Report& report) {
   struct Named {
     const char* name;
@@ -93,6 +96,7 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report) {
     Object object(value, path, report);
     read_span(object, "u", region.u_min, region.u_max);
     read_span(object, "v", region.v_min, region.v_max);
+    region.path = read_path(object, "offset");
     return region;
   }
   std::vector<std::string_view> names;

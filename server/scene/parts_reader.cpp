@@ -5,29 +5,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Times ascend: the ball is at one place at a time.
-std::vector<Waypoint> read_path(Object& ball) {
-  constexpr Range kTime{0, 1e6, "s"};
-  for (const char* key : {"position", "velocity"}) {
-    if (ball.has(key)) ball.problem(key, "is given beside path; the path says where the ball is");
-  }
-  std::vector<Waypoint> path;
-  ball.each("path", 1, kMaxWaypoints, [&](const json& value, const std::string& at) {
-    Waypoint point;
-    Object object(value, at, ball.report());
-    object.require("time", kTime);
-    const bool timed = object.number("time", point.time, kTime);
-    object.require("position", "an array of 3 numbers");
-    object.vector("position", point.position, kPosition);
-    if (timed && !path.empty() && point.time <= path.back().time) {
-      ball.report().refuse(value["time"], object.path("time"),
-                           "later than the point before, at " + json(path.back().time).dump() + " s");
-    }
-    path.push_back(point);
-  });
-  return path;
-}
-
 constexpr Range kSubsteps{1, 10000};
 
 SymplecticEulerDescription read_symplectic_euler(Object& object) {
@@ -60,35 +37,6 @@ Description read_implicit(Object& object) {
 }
 
 }  // namespace
-
-std::optional<BallDescription> read_collider(const json& value, const std::string& path, Report& report) {
-  constexpr Range kMass{1e-6, 1e6, "kg"};
-  constexpr Range kFriction{0, 10};
-  Object object(value, path, report);
-  object.require("type", "\"ball\"");
-  if (object.choice("type", {"ball"}) < 0) {
-    object.ignore_rest();
-    return std::nullopt;
-  }
-  BallDescription ball;
-  object.require("radius", kLength);
-  object.number("radius", ball.radius, kLength);
-  if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
-  object.number("mass", ball.mass, kMass);
-  object.number("friction", ball.friction, kFriction);
-  if (object.has("path")) {
-    if (ball.motion == BallDescription::Motion::dynamic) {
-      object.problem("path", "is given for a dynamic ball; only kinematic balls follow a path");
-    }
-    ball.path = read_path(object);
-    if (!ball.path.empty()) ball.position = ball.path.front().position;
-  } else {
-    object.require("position", "an array of 3 numbers, or a path");
-  }
-  object.vector("position", ball.position, kPosition);
-  object.vector("velocity", ball.velocity, kVelocity);
-  return ball;
-}
 
 std::optional<EffectDescription> read_effect(const json& value, const std::string& path, Report& report) {
   constexpr Range kAcceleration{-1e4, 1e4, "m/s2"};

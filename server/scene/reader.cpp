@@ -98,8 +98,8 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
     object.string("title", scene.title, kTitleLength);
     scene.notes = read_notes(object);
     simulation.cloths = read_cloths(object);
-    object.each("colliders", 0, kMaxBalls, [&](const json& value, const std::string& path) {
-      if (auto ball = read_collider(value, path, report)) simulation.balls.push_back(std::move(*ball));
+    object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
+      read_collider(value, path, report, simulation);
     });
     simulation.effects = read_effects(object);
     if (const json* wind = object.find("wind")) {

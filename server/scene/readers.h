@@ -9,7 +9,7 @@ namespace weft::scene {
 
 // Limits of a scene (D10); scene.schema.json states the same.
 inline constexpr std::size_t kMaxCloths = 16;
-inline constexpr std::size_t kMaxBalls = 64;
+inline constexpr std::size_t kMaxColliders = 64;
 inline constexpr int kMaxClothNodes = 257 * 257;  ///< at the cloth's highest level
 inline constexpr std::size_t kMaxPins = 256;
 inline constexpr std::size_t kMaxWaypoints = 10000;
@@ -23,8 +23,13 @@ inline constexpr Range kLevel{kMinLevel, kMaxLevel};
 inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
 
 ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report);
-std::optional<BallDescription> read_collider(const nlohmann::json& value, const std::string& path,
-                                             Report& report);
+/// Adds a ball or an obstacle to the simulation.
+void read_collider(const nlohmann::json& value, const std::string& path, Report& report,
+                   SimulationDescription& simulation);
+/// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
+Quaternion read_orientation(const nlohmann::json& value, const std::string& path, Report& report);
+/// The owner's "path", if it has one: points at ascending times, their places under the key `place`.
+std::vector<Waypoint> read_path(Object& owner, const char* place);
 std::optional<EffectDescription> read_effect(const nlohmann::json& value, const std::string& path,
                                              Report& report);
 Wind read_wind(const nlohmann::json& value, const std::string& path, Report& report);

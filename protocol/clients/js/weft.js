@@ -29,6 +29,9 @@ export const SUBPROTOCOL = 'weft.v1';
  * @property {number} quantum m: positions are exact to half of it
  * @property {Float32Array} positions x, y, z interleaved, row by row, m
  * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic'}} Ball
+ * @typedef {{shape: 'plane', position: Vector, normal: Vector}} Plane
+ * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
+ * @typedef {Plane|Box} Obstacle in `scene`
  * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[]}} Frame
  */
 

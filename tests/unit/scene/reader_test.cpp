@@ -112,6 +112,20 @@ TEST(Reader, BallFields) {
   EXPECT_EQ(balls[1].position, Vec3(4, 5, 6));  // where the path begins
 }
 
+TEST(Reader, ReadsObstacles) {
+  const auto obstacles = read_good("everything").simulation.obstacles;
+  ASSERT_EQ(obstacles.size(), 2u);
+  ASSERT_TRUE(std::holds_alternative<PlaneDescription>(obstacles[0].shape));
+  EXPECT_LT((std::get<PlaneDescription>(obstacles[0].shape).normal - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
+  EXPECT_EQ(obstacles[0].position, Vec3(0, -1, 0));
+  EXPECT_EQ(obstacles[0].friction, 0.5);
+  ASSERT_TRUE(std::holds_alternative<BoxDescription>(obstacles[1].shape));
+  const auto& box = std::get<BoxDescription>(obstacles[1].shape);
+  EXPECT_EQ(box.size, Vec3(1, 2, 4));
+  EXPECT_LT((box.orientation * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_EQ(obstacles[1].friction, 0);
+}
+
 TEST(Reader, EffectsWindAndStepping) {
   const SimulationDescription simulation = read_good("everything").simulation;
   ASSERT_EQ(simulation.effects.size(), 4u);
