@@ -261,7 +261,7 @@ class Cost(CliTest):
     def test_no_run_within_the_budget_is_3(self):
         result = weft("cost", "swing", "--levels", 3, "--duration", "0.1", "--budget", "0.000001s")
         self.assertEqual(result.returncode, 3)
-        self.assertIn("no run of swing stayed finite within the budget", result.stderr)
+        self.assertIn("no run of swing stayed sound within the budget", result.stderr)
 
 
 class Set(CliTest):
