@@ -29,7 +29,8 @@ IntegratorDescription backward_euler(int substeps) {
 template <class Real>
 void StepGuard<Real>::set_integrator(const IntegratorDescription& own) {
   own_ = own;
-  rung_ = Rung::own;
+  rung_ = last_rung_ = Rung::own;
+  limits_ = {};
   frozen_ = false;
   good_steps_ = kHold;
 }
@@ -75,7 +76,7 @@ auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& rep
   if (finding.fault == Fault::none && !report.sound) finding.fault = Fault::unsolved;
   if (finding.fault == Fault::none) {
     keep(particles, finding.speed);
-    went_well();
+    went_well(finding);
     return Verdict::good;
   }
   const bool last = rung_ == Rung::backward_euler_16;
@@ -102,10 +103,10 @@ auto StepGuard<Real>::look_at(const Particles<Real>& particles) const -> Finding
   const double strain =
       std::max(std::sqrt(double(most.along_u)) / cell_.x(), std::sqrt(double(most.along_v)) / cell_.y()) - 1;
   const double sum = double(most.speed) + double(most.along_u) + double(most.along_v);
-  if (!std::isfinite(sum)) return {Fault::not_finite, sum, 0, speed};
-  if (speed > kMostSpeed) return {Fault::too_fast, speed, kMostSpeed, speed};
-  if (strain > kMostStrain) return {Fault::too_stretched, strain, kMostStrain, speed};
-  return {Fault::none, 0, 0, speed};
+  if (!std::isfinite(sum)) return {Fault::not_finite, sum, 0, speed, strain};
+  if (speed > limits_.speed) return {Fault::too_fast, speed, limits_.speed, speed, strain};
+  if (strain > limits_.strain) return {Fault::too_stretched, strain, limits_.strain, speed, strain};
+  return {Fault::none, 0, 0, speed, strain};
 }
 
 template <class Real>
@@ -124,19 +125,34 @@ void StepGuard<Real>::restore(Particles<Real>& particles) const {
 }
 
 template <class Real>
-void StepGuard<Real>::went_well() {
+void StepGuard<Real>::watch_hold(const Finding& finding) {
+  // The first half is left out: what had run away comes to its senses there.
+  if (hold_left_ == hold_ / 2) trial_limits_ = {kTrialSpeed, kTrialStrain};
+  trial_limits_.speed =
+      std::clamp(kTrialFactor * finding.speed + kTrialSpeed, trial_limits_.speed, kMostSpeed);
+  trial_limits_.strain =
+      std::clamp(kTrialFactor * finding.strain + kTrialStrain, trial_limits_.strain, kMostStrain);
+}
+
+template <class Real>
+void StepGuard<Real>::went_well(const Finding& finding) {
   if (frozen_ || trouble_.fault != Fault::none) {
     if (rung_ != Rung::own) ++counters_.redone[static_cast<std::size_t>(rung_)];
     tell(frozen_ ? GuardEvent::Action::thawed : GuardEvent::Action::redone);
     frozen_ = false;
     trouble_ = {};
     hold_left_ = hold_;
+    last_rung_ = rung_;
   }
   if (rung_ == Rung::own) {
     good_steps_ = std::min(good_steps_ + 1, kHold);
-  } else if (hold_left_-- == 0) {
-    rung_ = Rung::own;
+    if (good_steps_ == kHold) limits_ = {};
+    return;
   }
+  watch_hold(finding);
+  if (hold_left_-- > 0) return;
+  rung_ = Rung::own;
+  limits_ = trial_limits_;
 }
 
 template <class Real>
@@ -146,6 +162,11 @@ void StepGuard<Real>::went_wrong(const Finding& finding) {
     relapse_ = good_steps_ < kHold;
     hold_ = relapse_ ? std::min(2 * hold_, kLongestHold) : kHold;
     good_steps_ = 0;
+    limits_ = {};
+    if (relapse_ && last_rung_ > rung_) {
+      rung_ = last_rung_;
+      return;
+    }
   }
   if (rung_ == Rung::backward_euler_16) return freeze();
   rung_ = static_cast<Rung>(static_cast<int>(rung_) + 1);

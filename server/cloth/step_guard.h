@@ -9,9 +9,10 @@ namespace weft {
 
 /// Keeps a cloth's last good state and takes a step back that leaves a bad one: not finite, runaway, or
 /// given up by the integrator. It is then made again by safer and safer methods (Rung), and the one that
-/// works is kept for kHold steps before the cloth's own is tried again. If none works the cloth is frozen: it
+/// works is kept for kHold steps before the cloth's own is tried again, first within limits near what there
+/// was meanwhile, so that a method that is not stable does not get far. If none works the cloth is frozen: it
 /// stands still at its last good state and is tried again after 1, 2, 4, ... steps. Trouble that comes back
-/// soon doubles both times.
+/// soon doubles both times, and begins with the rung that worked.
 ///
 /// Knows nothing of contacts or the integrators' insides: Cloth makes the steps (Cloth::advance).
 template <class Real>
@@ -23,7 +24,9 @@ class StepGuard {
   /// gets there within a few steps, each being a multiple of the one before.
   static constexpr double kMostSpeed = 1e6;   ///< m/s
   static constexpr double kMostStrain = 1e4;  ///< of structural springs, 1 = twice as long
-  static constexpr int kHold = 60;            ///< steps
+  /// While the own way is on trial: times what there was at most while another rung was kept, and besides.
+  static constexpr double kTrialFactor = 10, kTrialSpeed = 10, kTrialStrain = 1;
+  static constexpr int kHold = 60;  ///< steps
   static constexpr int kLongestHold = 64 * kHold;
   static constexpr int kLongestFreeze = 4096;  ///< steps between two attempts
 
@@ -65,11 +68,17 @@ class StepGuard {
     Fault fault = Fault::none;
     double value = 0, limit = 0;
     double speed = 0;  ///< m/s
+    double strain = 0;
+  };
+  struct Limits {
+    double speed = kMostSpeed, strain = kMostStrain;
   };
   Finding look_at(const Particles<Real>& particles) const;
   void keep(const Particles<Real>& particles, double speed);
+  /// The limits of the trial that follows the hold.
+  void watch_hold(const Finding& finding);
   void restore(Particles<Real>& particles) const;
-  void went_well();
+  void went_well(const Finding& finding);
   void went_wrong(const Finding& finding);
   void freeze();
   void tell(GuardEvent::Action action);
@@ -81,9 +90,11 @@ class StepGuard {
   double speed_ = 0;
 
   Rung rung_ = Rung::own;
-  Finding trouble_;                   ///< of the step in hand, as it was found first
-  bool relapse_ = false;              ///< it came soon after the one before
-  int good_steps_ = kHold;            ///< by the own way since then, as far as they count
+  Finding trouble_;             ///< of the step in hand, as it was found first
+  bool relapse_ = false;        ///< it came soon after the one before
+  int good_steps_ = kHold;      ///< by the own way since then, as far as they count: kHold end the trial
+  Rung last_rung_ = Rung::own;  ///< that worked
+  Limits limits_, trial_limits_;
   int hold_ = kHold, hold_left_ = 0;  ///< steps that a rung is kept, and that are left of them
   bool frozen_ = false;
   int freeze_ = 1, freeze_left_ = 0;  ///< steps from one attempt to the next

@@ -151,7 +151,10 @@ TEST(SleepTest, ABallThatComesNearWakesIt) {
 }
 
 TEST(SleepTest, ABallThatIsPutIntoItOrTakenAwayWakesIt) {
-  auto simulation = sleeping<float>(floating_scene());
+  SimulationDescription scene = floating_scene();
+  scene.effects = {DampingEffect{}};
+  scene.cloths[0].material.damping = 1;
+  auto simulation = sleeping<float>(scene);
   const BallId ball = simulation.add_ball(ball_at({0, 0, 0.19}, 0.2));
   simulation.step();
   EXPECT_FALSE(asleep(simulation));
