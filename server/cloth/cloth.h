@@ -42,6 +42,8 @@ class Cloth {
   /// Stands still at its last good state, as no way of stepping it from there gives a good one
   /// (step_guard.h).
   bool frozen() const { return guard_.frozen(); }
+  /// Neither, and stepped as it was asked for, not in a safer way for a while.
+  bool steps_as_asked() const { return !asleep() && !frozen() && guard_.rung() == Rung::own; }
   /// False if it has never been in a good state.
   bool sound() const { return guard_.sound(); }
   const GuardCounters& guard_counters() const { return guard_.counters(); }

@@ -31,7 +31,7 @@ void StepGuard<Real>::set_integrator(const IntegratorDescription& own) {
   own_ = own;
   rung_ = last_rung_ = Rung::own;
   limits_ = {};
-  frozen_ = false;
+  freeze_left_ = 0;
   good_steps_ = kHold;
 }
 
@@ -43,7 +43,7 @@ void StepGuard<Real>::enter(const Particles<Real>& particles, const Vec2& cell) 
   const Finding finding = look_at(particles);
   sound_ = finding.fault == Fault::none;
   speed_ = finding.speed;
-  frozen_ = false;
+  freeze_left_ = 0;
 }
 
 template <class Real>

@@ -32,10 +32,11 @@ class StepGuard {
 
   explicit StepGuard(const IntegratorDescription& own) : own_(own) {}
 
-  /// The cloth is stepped by `own` from now on; troubles with the one before are forgotten.
+  /// The cloth is stepped by `own` from now on; troubles with the one before are forgotten. A frozen one is
+  /// tried at once.
   void set_integrator(const IntegratorDescription& own);
   /// Another grid, or a state from outside: the last good one from now on, if it is good. `cell` is a cell's
-  /// width and height, m; infinite if nothing holds the nodes together.
+  /// width and height, m; infinite if nothing holds the nodes together. A frozen cloth is tried at once.
   void enter(const Particles<Real>& particles, const Vec2& cell);
 
   /// How the next step is to be made.
