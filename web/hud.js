@@ -1,5 +1,7 @@
 const byId = (id) => document.getElementById(id);
 const kToastMs = 6000;
+/** In place of the substeps, of which there are none. */
+const kStandsStill = {asleep: 'none: asleep', frozen: 'none: frozen'};
 
 /** Sets text only when it differs: screen readers and layout are spared. */
 function write(id, text) {
@@ -43,7 +45,7 @@ export class Hud {
     write('number-viewers', String(stats.viewers));
     write('number-dropped', String(stats.dropped));
     if (mine) {
-      write('number-substeps', `${mine.substeps} per step`);
+      write('number-substeps', kStandsStill[mine.state] ?? `${mine.substeps} per step`);
       write('number-simulated', `level ${mine.simulated_level}`);
     }
   }

@@ -30,6 +30,7 @@ function start(settings) {
   const link = new Link();
   const counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
   const latest = {stats: null};
+  const notices = new Map();  // what is told until it is taken back, by what it is about
   let sceneShown = null;     // whose camera place was taken: a reconnection keeps the viewer's own
   let chosenBall = null;
   let retryAt = null;
@@ -116,7 +117,7 @@ function start(settings) {
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
-      hud.showNotice(null);
+      tellNothing();
       eye.forget();
       command({op: 'scene.list'}).then((reply) => reply && panel.setScenes((scenes = reply.scenes), sceneShown));
     } else if (detail.state === 'lost') {
@@ -128,6 +129,16 @@ function start(settings) {
       document.getElementById('scene').disabled = false;
     }
   });
+
+  const tell = (topic, text) => {
+    if (text === null) notices.delete(topic);
+    else notices.set(topic, text);
+    hud.showNotice(notices.size > 0 ? [...notices.values()].join(' ') : null);
+  };
+  const tellNothing = () => {
+    notices.clear();
+    hud.showNotice(null);
+  };
 
   const handlers = {
     scene: (message) => {
@@ -143,7 +154,7 @@ function start(settings) {
       panel.setTitle(message.title);
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
-      hud.showNotice(null);
+      tellNothing();
       cost.begin();
     },
     event: (message) => {
@@ -152,17 +163,19 @@ function start(settings) {
         panel.setWind(show.wind, show.hasWind);
       }
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
-      if (message.kind === 'reset') hud.showNotice(null);
+      if (message.kind === 'reset') tellNothing();
     },
     stats: (message) => {
       latest.stats = message;
       hud.showStats(message, nearest()?.cloth ?? 0);
+      if (message.cloths.every((cloth) => cloth.state !== 'frozen')) tell('frozen', null);
       cost.setQuality(message.quality);
     },
     curve: (message) => cost.setCurve(message),
     notice: (message) => {
-      if (message.code === 'real_time') hud.showNotice(null);
-      else hud.showNotice(message.message);
+      if (message.code === 'real_time') tell('slow', null);
+      else if (message.code === 'recovered') hud.toast(message.message, 'plain');
+      else tell(message.code, message.message);
     },
     round_trip: (message) => hud.showRoundTrip(message.ms),
   };

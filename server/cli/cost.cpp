@@ -140,7 +140,7 @@ int study_scene(const CostOptions& options, const scene::Scene& scene, int frame
   std::printf("%s: %d frames, %g s simulated, one thread of %s\n\n%s", scene.name.c_str(), study.frames,
               study.frames * study.time_step, heading.machine.c_str(), study::table(study).c_str());
   if (!study.any_done()) {
-    std::fprintf(stderr, "weft: no run of %s stayed finite within the budget\n", scene.name.c_str());
+    std::fprintf(stderr, "weft: no run of %s stayed sound within the budget\n", scene.name.c_str());
     return kBadState;
   }
   return 0;

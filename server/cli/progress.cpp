@@ -22,6 +22,10 @@ Progress::~Progress() {
   if (terminal_) std::fputs(kClearLine, stderr);
 }
 
+void Progress::print(const std::string& line) const {
+  std::fprintf(stderr, "%s%s\n", terminal_ ? kClearLine : "", line.c_str());
+}
+
 void Progress::show(int done) {
   const auto now = Clock::now();
   if (!terminal_ || total_ <= 0 || done <= 0 || now - drawn_ < std::chrono::milliseconds(100)) return;

@@ -14,6 +14,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// A line above the bar; on standard error in any case.
+  void print(const std::string& line) const;
   /// Draws at most ten times a second.
   void show(int done);
 

@@ -1,7 +1,9 @@
 #include "cloth/cloth.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -70,11 +72,13 @@ void perturb(const ClothDescription& description, std::uint64_t seed, Particles<
 
 template <class Real>
 Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
-                   const IntegratorDescription& integrator, std::uint64_t seed)
+                   const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed)
     : description_(description),
       total_mass_(description.material.density * description.size.x() * description.size.y()),
       effects_(make_effects<Real>(effects)),
-      integrator_(make_integrator<Real>(integrator)) {
+      integrator_(make_integrator<Real>(integrator)),
+      guard_(integrator),
+      sleep_(sleep_speed) {
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
   Particles<Real> particles(description_.base_cells.at(level));
   place(description_, particles);
@@ -82,6 +86,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
                 [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
   enter_level(level, std::move(particles));
   perturb(description_, seed, particles_);
+  hand_to_guard();
 }
 
 template <class Real>
@@ -99,6 +104,7 @@ bool Cloth<Real>::apply_pending_level() {
   const int target = pending_level_.value_or(level_);
   pending_level_.reset();
   const bool changes = target != level_;
+  if (changes) guard_.repair(particles_);
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
@@ -118,23 +124,90 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
   pins_ = Pins<Real>(description_.pins, time_, particles_);
-  springs_ =
-      Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
+  make_springs();
   earlier_contacts_ = contact_counters();
   contact_.reset();
   integrator_->restart();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::hand_to_guard() {
+  const Grid& grid = particles_.grid();
+  const bool held = description_.material.structural > 0;
+  const double infinite = std::numeric_limits<double>::infinity();
+  guard_.enter(particles_,
+               held ? Vec2(description_.size.x() / (grid.cols - 1), description_.size.y() / (grid.rows - 1))
+                    : Vec2(infinite, infinite));
+}
+
+template <class Real>
+void Cloth<Real>::make_springs() {
+  springs_ =
+      Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
+}
+
+template <class Real>
+void Cloth<Real>::set_integrator(const IntegratorDescription& integrator) {
+  integrator_ = make_integrator<Real>(integrator);
+  guard_.set_integrator(integrator);
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
+  effects_.push_back(std::move(effect));
+  wake();
 }
 
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind& wind, double time,
                                    double dt) {
-  if (!solids.empty() && !contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
-  if (contact_) contact_->begin_step(solids);
-  time_ = time + dt;
+  using Clock = std::chrono::steady_clock;
+  using Verdict = typename StepGuard<Real>::Verdict;
+  if (contact_) contact_->begin_step(solids);  // nothing is given yet, and nothing while it stands still
+  if (pins_.moving() && time < pins_.end_of_motion()) wake();
+  if (sleep_.through(solids, wind) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
+  for (;;) {
+    const Rung rung = guard_.rung();
+    AdvanceReport report = attempt(solids, wind, time, dt);
+    const auto begin = Clock::now();
+    const Verdict verdict = guard_.judge(particles_, report);
+    if (verdict == Verdict::good) {
+      if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
+      sleep_.stepped(guard_.speed(), particles_, solids);
+      time_ = time + dt;
+      nodes_in_contact_ = report.nodes_in_contact;
+      report.check_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      return report;
+    }
+    forget_attempt();
+    if (verdict == Verdict::stand_still) return {};
+  }
+}
+
+template <class Real>
+AdvanceReport Cloth<Real>::attempt(const std::vector<Solid>& solids, const Wind& wind, double time,
+                                   double dt) {
+  if (!solids.empty() && !contact_) {
+    contact_ = std::make_unique<Contact<Real>>(particles_.grid());
+    contact_->begin_step(solids);
+  }
   const Forces<Real> forces{
       &springs_, &effects_, {&description_, &wind, time}, pins_.moving() ? &pins_ : nullptr};
   return integrator_->advance(particles_, forces, solids.empty() ? nullptr : contact_.get(), solids, time,
                               dt);
+}
+
+template <class Real>
+void Cloth<Real>::forget_attempt() {
+  // Work arrays that must stay zero outside the grid may hold what is not a number now.
+  make_springs();
+  integrator_ = make_integrator<Real>(guard_.method());
+  earlier_contacts_ = contact_counters();
+  contact_.reset();
+  nodes_in_contact_ = 0;
 }
 
 template <class Real>

@@ -3,6 +3,8 @@
 
 #include "cloth/colliders.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/sleep.h"
+#include "cloth/step_guard.h"
 
 namespace weft {
 
@@ -10,13 +12,14 @@ namespace weft {
 template <class Real>
 class Cloth {
  public:
-  /// `seed` makes the start's random offsets.
+  /// `seed` makes the start's random offsets; `sleep_speed` as in SimulationDescription.
   Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
-        const IntegratorDescription& integrator, std::uint64_t seed);
+        const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed = 0);
 
   const ClothDescription& description() const { return description_; }
   int level() const { return level_; }
   const Particles<Real>& particles() const { return particles_; }
+  /// Whoever writes to them wakes the cloth.
   Particles<Real>& particles() { return particles_; }
   const Springs<Real>& springs() const { return springs_; }
   double total_mass() const { return total_mass_; }  ///< kg; the same at every level
@@ -28,9 +31,24 @@ class Cloth {
   bool apply_pending_level();
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
-  void set_integrator(const IntegratorDescription& integrator) {
-    integrator_ = make_integrator<Real>(integrator);
-  }
+  void set_integrator(const IntegratorDescription& integrator);
+  /// Adds an effect of the caller's own to the description's. If its forces change while the cloth sleeps it
+  /// is the caller who wakes it. Tests inject faults so.
+  void add_effect(std::unique_ptr<Effect<Real>> effect);
+
+  /// Its steps are left out, as nothing moves: substeps is 0 and the state keeps its bits (sleep.h).
+  bool asleep() const { return sleep_.asleep(); }
+  void wake() { sleep_.wake(); }
+  /// Stands still at its last good state, as no way of stepping it from there gives a good one
+  /// (step_guard.h).
+  bool frozen() const { return guard_.frozen(); }
+  /// Neither, and stepped as it was asked for, not in a safer way for a while.
+  bool steps_as_asked() const { return !asleep() && !frozen() && guard_.rung() == Rung::own; }
+  /// False if it has never been in a good state.
+  bool sound() const { return guard_.sound(); }
+  const GuardCounters& guard_counters() const { return guard_.counters(); }
+  /// What the guard did since the last call; cloth and step are for the caller to fill in.
+  std::vector<GuardEvent> take_guard_events() { return guard_.take_events(); }
 
   /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
   /// push_balls(). Several cloths may do it at the same time.
@@ -40,6 +58,12 @@ class Cloth {
 
  private:
   void enter_level(int level, Particles<Real> particles);
+  /// The state is the last good one from now on, if it is good.
+  void hand_to_guard();
+  void make_springs();
+  AdvanceReport attempt(const std::vector<Solid>& solids, const Wind& wind, double time, double dt);
+  /// Nothing remembers a step that was taken back.
+  void forget_attempt();
 
   ClothDescription description_;
   double total_mass_ = 0;
@@ -47,10 +71,13 @@ class Cloth {
   std::optional<int> pending_level_;
   Particles<Real> particles_;
   Pins<Real> pins_;
-  double time_ = 0;  ///< s, at the end of the last step
+  double time_ = 0;  ///< s, at the end of the last step that was made
   Springs<Real> springs_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;
-  std::unique_ptr<Integrator<Real>> integrator_;
+  std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
+  StepGuard<Real> guard_;
+  Sleep sleep_;
+  int nodes_in_contact_ = 0;                ///< at the end of the last step that was made
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
   ContactCounters earlier_contacts_;        ///< at the levels left behind
 };

@@ -123,6 +123,7 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
       target->reached = true;
     }
   }
+  stop_bad_balls();
   solids_.clear();
   for (const Ball& ball : balls_) solids_.push_back(ball.solid());
   solids_.insert(solids_.end(), obstacles_.begin(), obstacles_.end());
@@ -136,6 +137,20 @@ void Colliders::end_step() {
   for (Ball& ball : balls_) {
     if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += ball.impulse / ball.mass;
     ball.impulse.setZero();
+  }
+  stop_bad_balls();
+}
+
+void Colliders::stop_bad_balls() {
+  const auto good = [](const Vec3& v) { return (v.array().abs() <= kFarthest).all(); };
+  for (Ball& ball : balls_) {
+    if (good(ball.position) && good(ball.velocity)) continue;
+    if (!good(ball.start)) ball.start.setZero();  // it never had a good place
+    if (!good(ball.position)) ball.position = ball.start;
+    ball.velocity.setZero();
+    ball.path.clear();
+    forget_target(ball.id);
+    stopped_.push_back(ball.id);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cloth/contact/solid.h"
@@ -52,6 +53,11 @@ class Colliders {
   void push(const std::vector<Vec3>& impulses);
   /// Dynamic balls take up the impulses the cloths gave them.
   void end_step();
+  /// A ball whose place or velocity is beyond this, m or m/s, or not a number, is put back to its last good
+  /// place, at rest and without its path. Single precision, which frames have, still holds it.
+  static constexpr double kFarthest = 1e30;
+  /// The balls put back since the last call.
+  std::vector<BallId> take_stopped() { return std::exchange(stopped_, {}); }
 
  private:
   /// Where a ball was told to go. Kept for one step after it got there, to bring it to rest.
@@ -61,10 +67,12 @@ class Colliders {
     bool reached;
   };
   void forget_target(BallId id);
+  void stop_bad_balls();
 
   std::vector<Ball> balls_;
   std::vector<Solid> obstacles_, solids_;
   std::vector<Target> targets_;
+  std::vector<BallId> stopped_;
   BallId next_id_ = 1;
 };
 

@@ -1,5 +1,6 @@
 #include "cloth/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "cloth/diagnostics.h"
@@ -24,7 +25,8 @@ std::vector<Cloth<Real>> make_cloths(const SimulationDescription& description) {
   cloths.reserve(description.cloths.size());
   for (const ClothDescription& cloth : description.cloths) {
     // Each cloth draws from its own sequence: adding one leaves the others as they are.
-    cloths.emplace_back(cloth, description.effects, description.integrator, description.seed + cloths.size());
+    cloths.emplace_back(cloth, description.effects, description.integrator, description.seed + cloths.size(),
+                        description.sleep_speed);
   }
   return cloths;
 }
@@ -44,7 +46,7 @@ void Simulation<Real>::reset() {
   cloths_ = make_cloths<Real>(description_);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;
-  healthy_ = true;
+  guard_events_.clear();
   profile_ = StepProfile{};
 }
 
@@ -68,13 +70,12 @@ void Simulation<Real>::step() {
     cloths_[i].push_balls(colliders_);
     profile_.forces += last_advance_[i].forces_seconds;
     profile_.contact += last_advance_[i].contact_seconds;
+    profile_.check += last_advance_[i].check_seconds;
   }
   colliders_.end_step();
   ++steps_;
 
-  const auto check = Clock::now();
-  check_finite();
-  profile_.check = seconds_since(check);
+  collect_guard_events();
   profile_.total = seconds_since(begin);
 }
 
@@ -85,7 +86,7 @@ void Simulation<Real>::advance_cloths(double dt) {
     last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), wind_, time(), dt);
   };
   int nodes = 0;
-  for (const Cloth<Real>& cloth : cloths_) nodes += cloth.particles().grid().nodes();
+  for (const Cloth<Real>& cloth : cloths_) nodes += cloth.asleep() ? 0 : cloth.particles().grid().nodes();
   const int count = static_cast<int>(cloths_.size());
   if (nodes >= kNodesWorthHelp) {
     parallel_for(count, advance);
@@ -95,11 +96,28 @@ void Simulation<Real>::advance_cloths(double dt) {
 }
 
 template <class Real>
-void Simulation<Real>::check_finite() {
-  for (const Cloth<Real>& cloth : cloths_) healthy_ = healthy_ && is_finite(cloth.particles());
-  for (const Ball& ball : colliders_.balls()) {
-    healthy_ = healthy_ && ball.position.allFinite() && ball.velocity.allFinite();
+void Simulation<Real>::collect_guard_events() {
+  guard_events_.clear();
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    for (GuardEvent& event : cloths_[i].take_guard_events()) {
+      event.cloth = i;
+      event.step = steps_;
+      guard_events_.push_back(event);
+    }
   }
+  for (const BallId ball : colliders_.take_stopped()) {
+    GuardEvent event;
+    event.action = GuardEvent::Action::ball_stopped;
+    event.fault = Fault::not_finite;
+    event.ball = ball;
+    event.step = steps_;
+    guard_events_.push_back(event);
+  }
+}
+
+template <class Real>
+bool Simulation<Real>::healthy() const {
+  return std::all_of(cloths_.begin(), cloths_.end(), [](const Cloth<Real>& cloth) { return cloth.sound(); });
 }
 
 template <class Real>

@@ -13,7 +13,7 @@ struct StepProfile {
   double levels = 0;   ///< split and merge
   double forces = 0;   ///< springs and effects
   double contact = 0;  ///< broad phase and response
-  double check = 0;    ///< is everything finite
+  double check = 0;    ///< the step guard: is the state a good one
   double total = 0;
 };
 
@@ -39,7 +39,10 @@ class Simulation {
   std::uint64_t step_count() const { return steps_; }
   /// step_count * time_step, counted in whole steps so that it never drifts, s.
   double time() const { return static_cast<double>(steps_) * description_.time_step; }
-  bool healthy() const { return healthy_; }  ///< false once a step gave a non-finite state
+  /// False if a cloth's very start is not finite: from any other bad state the step guard goes back.
+  bool healthy() const;
+  /// What the step guard found and did in the last step (step_guard.h); empty if all went well.
+  const std::vector<GuardEvent>& guard_events() const { return guard_events_; }
   const StepProfile& profile() const { return profile_; }
   const AdvanceReport& last_advance(std::size_t cloth) const { return last_advance_[cloth]; }
 
@@ -72,7 +75,7 @@ class Simulation {
  private:
   /// All cloths through the step, as it is for each of them alone.
   void advance_cloths(double dt);
-  void check_finite();
+  void collect_guard_events();
 
   SimulationDescription description_;
   Vec3 gravity_{0, 0, 0};
@@ -81,7 +84,7 @@ class Simulation {
   std::vector<Cloth<Real>> cloths_;
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;
-  bool healthy_ = true;
+  std::vector<GuardEvent> guard_events_;
   StepProfile profile_;
 };
 

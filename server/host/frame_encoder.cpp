@@ -33,11 +33,10 @@ int finest_sendable_level(const BaseCells& base, std::size_t frame_bytes) {
   return level;
 }
 
-bool FrameEncoder::capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp) {
+void FrameEncoder::capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp) {
   std::vector<protocol::FrameBall> balls;
   for (const Ball& ball : simulation.colliders().balls()) {
     const Eigen::Vector3f position = ball.position.cast<float>();
-    if (!position.allFinite()) return false;
     balls.push_back({ball.id,
                      {position.x(), position.y(), position.z()},
                      static_cast<float>(ball.radius),
@@ -51,7 +50,6 @@ bool FrameEncoder::capture(const Simulation<float>& simulation, const protocol::
   }
   stamp_ = stamp;
   forget_encodings();
-  return true;
 }
 
 void FrameEncoder::set_flags(std::uint16_t flags) {

@@ -13,16 +13,14 @@ namespace weft::host {
 /// The finest level of a cloth whose record stays within `frame_bytes` whatever the positions.
 int finest_sendable_level(const BaseCells& base, std::size_t frame_bytes);
 
-/// Holds a copy of the last state it was given, so that what is shown survives a step that went wrong. Used
-/// by the scene's thread alone.
+/// Holds a copy of the last state it was given. Used by the scene's thread alone.
 class FrameEncoder {
  public:
   /// Bits of quantisation of every record.
   static constexpr int kBits = 16;
 
-  /// Takes over what is to be shown. False, and nothing taken, if a ball is not at a finite place: such a
-  /// state is never sent. The cloths must be finite (Simulation::healthy).
-  bool capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp);
+  /// Takes over what is to be shown: a state that the step guard has let pass.
+  void capture(const Simulation<float>& simulation, const protocol::FrameStamp& stamp);
   /// The same state under other flags.
   void set_flags(std::uint16_t flags);
   const protocol::FrameStamp& stamp() const { return stamp_; }

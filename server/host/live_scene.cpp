@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <utility>
 
 #include "host/scene_messages.h"
@@ -40,7 +39,8 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.distance = scene_.camera_distance;
   look(seat);
   seat.viewer->send(visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_}, seat)));
-  if (unstable_) seat.viewer->send(visit, make_text(protocol::notice_text("unstable", unstable_message_)));
+  for (const GuardLog::Notice& notice : guard_.standing())
+    seat.viewer->send(visit, make_text(protocol::notice_text(notice.code, notice.message)));
   seats_.push_back(std::move(seat));
   request_levels();
 }
@@ -67,7 +67,7 @@ void LiveScene::look(Seat& seat) {
 }
 
 void LiveScene::request_levels() {
-  if (seats_.empty() || unstable_) return;
+  if (seats_.empty()) return;
   std::vector<int> wanted(simulation_.cloths().size(), 0);
   for (const Seat& seat : seats_) {
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], seat.levels[i]);
@@ -97,24 +97,17 @@ void LiveScene::take_study(StudyOutcome outcome) {
 
 // --- Steps ---
 
-bool LiveScene::wants_step() const {
-  return !seats_.empty() && !unstable_ && (!paused_ || waiting_steps_ > 0);
-}
+bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || waiting_steps_ > 0); }
 
 void LiveScene::step() {
   for (Seat& seat : seats_) look(seat);
   request_levels();
-  try {
-    simulation_.step();
-  } catch (const std::exception& error) {
-    became_unstable(error.what());
-    return;
-  }
-  if (!simulation_.healthy()) {
-    became_unstable("a position or velocity is no longer finite");
-    return;
-  }
-  quality_.stepped(simulation_.profile().total * 1e3);
+  simulation_.step();
+  tell_guard_events();
+  const auto& cloths = simulation_.cloths();
+  const bool as_asked = std::all_of(cloths.begin(), cloths.end(),
+                                    [](const Cloth<float>& cloth) { return cloth.steps_as_asked(); });
+  if (as_asked) quality_.stepped(simulation_.profile().total * 1e3);  // no other step tells what it takes
   find_centres();
   remove_lost_balls();
   const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
@@ -131,21 +124,17 @@ void LiveScene::set_slow(bool slow) {
                 : protocol::notice_text("real_time", "the clock runs in real time again"));
 }
 
-void LiveScene::became_unstable(const std::string& why) {
-  unstable_message_ = "step " + std::to_string(simulation_.step_count()) + " went bad (" + why +
-                      "): the scene stands at its last good frame until it is reset";
-  unstable_ = true;
-  paused_before_ = paused_;
-  waiting_steps_ = 0;
-  set_paused(true);
-  tell_all(protocol::notice_text("unstable", unstable_message_));
+void LiveScene::tell_guard_events() {
+  for (GuardLog::Notice& notice : guard_.stepped(simulation_)) {
+    tell_all(protocol::notice_text(notice.code, notice.message));
+    guard_texts_.push_back(std::move(notice.message));
+  }
 }
 
 void LiveScene::remove_lost_balls() {
   std::vector<BallId> lost;
   for (const Ball& ball : simulation_.colliders().balls()) {
     const bool dynamic = ball.motion == BallDescription::Motion::dynamic;
-    // Written so that a position that is not a number is no reason to remove it: publish() finds it.
     if (dynamic && ball.position.cwiseAbs().maxCoeff() > kBallRange) lost.push_back(ball.id);
   }
   for (const BallId id : lost) {
@@ -166,14 +155,14 @@ void LiveScene::publish(std::uint32_t server_ms) {
   const bool wanted =
       std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.wants_frame; });
   if (!frame_due_ && !wanted) return;
-  if (state_newer_ && !unstable_) {
+  if (state_newer_) {
     protocol::FrameStamp stamp;
     stamp.frame = static_cast<std::uint32_t>(simulation_.step_count());
     stamp.epoch = epoch_;
     stamp.time = simulation_.time();
     stamp.server_ms = server_ms;
     stamp.flags = flags();
-    if (!encoder_.capture(simulation_, stamp)) became_unstable("a ball's position is no longer finite");
+    encoder_.capture(simulation_, stamp);
   }
   state_newer_ = false;
   encoder_.set_flags(flags());
@@ -193,6 +182,7 @@ void LiveScene::send_stats(double rate) {
     state.levels.push_back(encoder_.simulated_level(i));
   }
   state.quality = quality_.stats_json();
+  state.guard = guard_.stats_json();
   for (const Seat& seat : seats_)
     seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)));
 }

@@ -4,11 +4,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "cloth/simulation.h"
 #include "host/frame_encoder.h"
+#include "host/guard_log.h"
 #include "host/scene_quality.h"
 #include "host/seat.h"
 #include "protocol/message.h"
@@ -42,7 +44,7 @@ class LiveScene {
   /// Carries out one of its commands and answers it. The scene is between two steps.
   void apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, const SceneRequest& request);
 
-  /// False while nobody looks, while paused (but for the steps asked for) and after a state gone bad.
+  /// False while nobody looks, and while paused but for the steps asked for.
   bool wants_step() const;
   /// One step, at the finest level that any viewer needs.
   void step();
@@ -62,9 +64,8 @@ class LiveScene {
   std::uint32_t epoch() const { return epoch_; }
   bool paused() const { return paused_; }
   bool slow() const { return slow_; }
-  bool unstable() const { return unstable_; }
-  /// What went wrong, once unstable().
-  const std::string& unstable_message() const { return unstable_message_; }
+  /// What viewers were told of the step guard since the last call, for the log.
+  std::vector<std::string> take_guard_texts() { return std::exchange(guard_texts_, {}); }
   bool empty() const { return seats_.empty(); }
 
  private:
@@ -84,14 +85,13 @@ class LiveScene {
   Outcome carry_out(const protocol::Resume& resume, Seat& seat);
   Outcome carry_out(const protocol::Reset& reset, Seat& seat);
   Outcome carry_out(const protocol::Step& step, Seat& seat);
-  Outcome must_reset() const;
 
   void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
   void request_levels();
   void use_chosen_integrator();
   void find_centres();
   void set_paused(bool paused);
-  void became_unstable(const std::string& why);
+  void tell_guard_events();
   void remove_lost_balls();
   void state_changed();
   void balls_changed(std::string_view kind, BallId id);
@@ -105,20 +105,19 @@ class LiveScene {
   Simulation<float> simulation_;
   FrameEncoder encoder_;
   SceneQuality quality_;
+  GuardLog guard_;
+  std::vector<std::string> guard_texts_;
   std::vector<Seat> seats_;
   std::vector<int> finest_sendable_;  ///< by cloth
-  std::vector<Vec3> centres_;         ///< of the cloths, in the last good state
+  std::vector<Vec3> centres_;         ///< of the cloths
   int frame_stride_ = 1;              ///< steps from one frame to the next
   std::uint32_t epoch_ = 1;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
   int waiting_steps_ = 0;           ///< asked for by `step`, not made yet
   bool paused_ = false;
-  bool paused_before_ = false;  ///< before the state went bad
-  bool unstable_ = false;
   bool slow_ = false;
   bool state_newer_ = true;  ///< than the encoder's copy
   bool frame_due_ = true;    ///< to all viewers
-  std::string unstable_message_;
 };
 
 }  // namespace weft::host

@@ -63,7 +63,6 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& se
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
-  if (unstable_) return must_reset();
   if (simulation_.colliders().balls().size() >= static_cast<std::size_t>(limits_.balls)) {
     return refused("limit", "",
                    "the scene has " + std::to_string(limits_.balls) + " balls, the most allowed");
@@ -80,20 +79,17 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat&) {
-  if (unstable_) return must_reset();
   if (!simulation_.move_ball(move.ball, to_vec3(move.position))) return no_such_ball(move.ball);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&) {
-  if (unstable_) return must_reset();
   if (!simulation_.throw_ball(thrown.ball, to_vec3(thrown.velocity))) return no_such_ball(thrown.ball);
   balls_changed("ball.throw", thrown.ball);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat&) {
-  if (unstable_) return must_reset();
   if (!simulation_.remove_ball(remove.ball)) return no_such_ball(remove.ball);
   balls_changed("ball.remove", remove.ball);
   return json::object();
@@ -103,7 +99,6 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (!has_wind(scene_.simulation)) {
     return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
   }
-  if (unstable_) return must_reset();
   simulation_.set_wind({to_vec3(wind.direction), wind.speed});
   tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
   return json::object();
@@ -131,14 +126,12 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Pause&, Seat&) {
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Resume&, Seat&) {
-  if (unstable_) return must_reset();
   waiting_steps_ = 0;
   set_paused(false);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
-  if (unstable_) return must_reset();
   if (!paused_) return refused("conflict", "", "step is only for a paused scene");
   if (waiting_steps_ + step.count > kMaxWaitingSteps) {
     return refused(
@@ -154,8 +147,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   simulation_.reset();
   quality_.restarted();
-  if (unstable_) paused_ = paused_before_;
-  unstable_ = false;
+  guard_ = {};
   waiting_steps_ = 0;
   ++epoch_;
   takes_effect_ = 0;
@@ -174,7 +166,5 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   request_levels();
   return json::object();
 }
-
-LiveScene::Outcome LiveScene::must_reset() const { return refused("conflict", "", unstable_message_); }
 
 }  // namespace weft::host

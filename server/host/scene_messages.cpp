@@ -46,6 +46,11 @@ json effects_json(const SimulationDescription& description) {
   return effects;
 }
 
+const char* state_of(const Cloth<float>& cloth) {
+  if (cloth.frozen()) return "frozen";
+  return cloth.asleep() ? "asleep" : "awake";
+}
+
 }  // namespace
 
 json wind_json(const Wind& wind) {
@@ -55,7 +60,6 @@ json wind_json(const Wind& wind) {
 json balls_json(const Colliders& colliders) {
   json balls = json::array();
   for (const Ball& ball : colliders.balls()) {
-    if (!ball.position.allFinite()) continue;
     const bool dynamic = ball.motion == BallDescription::Motion::dynamic;
     balls.push_back({{"ball", ball.id},
                      {"position", vector_json(ball.position)},
@@ -104,6 +108,7 @@ std::string stats_text(const Simulation<float>& simulation, const StatsState& st
                       {"simulated_level", state.levels[i]},
                       {"nodes", simulation.description().cloths[i].base_cells.at(level).nodes()},
                       {"substeps", state.substeps[i]},
+                      {"state", state_of(simulation.cloths()[i])},
                       {"distance", seat.distances[i]}});
   }
   json message = {{"op", "stats"},
@@ -115,6 +120,7 @@ std::string stats_text(const Simulation<float>& simulation, const StatsState& st
                   {"dropped", seat.viewer->dropped()},
                   {"cloths", std::move(cloths)}};
   if (!state.quality.is_null()) message["quality"] = state.quality;
+  if (!state.guard.is_null()) message["guard"] = state.guard;
   return message.dump();
 }
 

@@ -16,18 +16,17 @@ struct SceneState {
 };
 
 nlohmann::json wind_json(const Wind& wind);
-/// Every ball that is at a finite place.
 nlohmann::json balls_json(const Colliders& colliders);
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);
-/// `stats`, as it is sent to `seat`. `substeps` and `levels` (simulated ones) are by cloth; `quality` is null
-/// if there is nothing to tell of it.
+/// `stats`, as it is sent to `seat`. `substeps` and `levels` (simulated ones) are by cloth; `quality`
+/// and `guard` are null if there is nothing to tell of them.
 struct StatsState {
   double rate = 1.0;
   std::size_t viewers = 0;
   std::vector<int> substeps, levels;
-  nlohmann::json quality;
+  nlohmann::json quality, guard;
 };
 std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat);
 

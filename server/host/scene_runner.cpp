@@ -115,7 +115,7 @@ void SceneRunner::step_if_due() {
                  clock_.slow() ? "runs behind real time" : "is in real time again");
     live_.set_slow(clock_.slow());
   }
-  if (live_.unstable()) spdlog::error("scene {}: {}", name_, live_.unstable_message());
+  for (const std::string& text : live_.take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
 }
 
 void SceneRunner::study_if_wanted() {

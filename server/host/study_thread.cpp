@@ -77,7 +77,7 @@ StudyOutcome study_of(const SimulationDescription& description, const std::stop_
         study::choices_of(study::study_cost(description, plan_of(description), study::thread_time, watch)),
         {}};
     if (outcome.choices.levels.empty())
-      outcome.why = "no way to step the scene stayed finite in the time there was";
+      outcome.why = "no way to step the scene stayed sound in the time there was";
     return outcome;
   } catch (const TooLong&) {
     return {{}, "the scene is too large to be measured while it is shown; weft cost takes its time"};

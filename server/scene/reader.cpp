@@ -87,6 +87,7 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
                   std::map<std::string, std::string> overflows) {
   constexpr std::size_t kTitleLength = 200;
   constexpr Range kTimeStep{1e-6, 0.1, "s"};
+  constexpr Range kSleepSpeed{0, 1, "m/s"};
   constexpr Range kSeed{0, 9007199254740991};  // 2^53 - 1: exact in every JSON reader
   Report report(std::move(found), std::move(overflows));
   Scene scene;
@@ -115,6 +116,7 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
       scene.quality = read_quality(*quality, "/quality", report);
     }
     object.number("time_step", simulation.time_step, kTimeStep);
+    object.number("sleep_speed", simulation.sleep_speed, kSleepSpeed);
     if (const json* policy = object.find("level_policy")) {
       simulation.level_policy = read_level_policy(*policy, "/level_policy", report);
     }

@@ -22,7 +22,7 @@ struct LevelChoices {
   double space = 0;           ///< error of the grid itself, against the finest level studied
   double floor = 0;           ///< smaller errors than this cannot be told apart
   std::vector<Choice> front;  ///< the best choices, from cheap to accurate: error falls strictly
-  std::optional<Choice> own;  ///< the scene's own integrator, if it stayed finite
+  std::optional<Choice> own;  ///< the scene's own integrator, if it stayed sound
   std::vector<Choice> all;    ///< every run that was done, those above included, from cheap to dear
 };
 

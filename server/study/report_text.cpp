@@ -47,15 +47,15 @@ std::string_view name_of(Run::Status status) {
       return "skipped: beyond the budget";
     case Run::Status::no_reference:
       return "not made: nothing to compare it with";
-    case Run::Status::not_finite:
-      return "went bad: not finite";
+    case Run::Status::went_bad:
+      return "went bad: the steps are too long for it";
   }
   return "";
 }
 
 std::string trust(const Study& study, const LevelStudy& level) {
   const Reference& reference = level.reference;
-  if (!reference.usable()) return "no reference: no step size stayed finite.";
+  if (!reference.usable()) return "no reference: no step size was stable.";
   const double moved = study.judged(reference.change());
   const int substeps = reference.rungs.back().substeps;
   std::string text = "reference: BDF2 in double precision, ";
@@ -110,7 +110,7 @@ std::string table(const Study& study) {
     });
     for (const Run* run : runs) {
       if (run->status == Run::Status::skipped) ++skipped;
-      if (run->status == Run::Status::done || run->status == Run::Status::not_finite) {
+      if (run->status == Run::Status::done || run->status == Run::Status::went_bad) {
         text += line_of(*run) + "\n";
       }
     }

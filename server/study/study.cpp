@@ -31,7 +31,7 @@ class Runner {
           watch_();
           return fits(begin, done);
         });
-    if (!trajectory.finite) run.status = Run::Status::not_finite;
+    if (!trajectory.sound) run.status = Run::Status::went_bad;
     if (!trajectory.complete) return;
     run.status = Run::Status::done;
     run.milliseconds = trajectory.milliseconds_per_frame();

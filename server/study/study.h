@@ -27,7 +27,7 @@ struct Run {
     done,
     skipped,       ///< did not fit into what was left of the budget
     no_reference,  ///< not made: its level's reference, or the finest level's, went bad
-    not_finite     ///< its positions or velocities went bad
+    went_bad       ///< the step guard found a bad state: it does not do without smaller steps
   };
   Candidate candidate;
   Status status = Status::skipped;
@@ -57,7 +57,7 @@ struct Study {
   /// Errors below this say nothing: by so much the reference moved last, or rounding moves it. Judged as
   /// errors are.
   double floor(const Reference& reference) const;
-  /// Some run stayed finite and could be compared.
+  /// Some run stayed sound and could be compared.
   bool any_done() const;
 };
 

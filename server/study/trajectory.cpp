@@ -80,6 +80,7 @@ Simulation<Real> at_level(SimulationDescription description, int level) {
     cloth.min_level = std::min(cloth.min_level, level);
     cloth.max_level = std::max(cloth.max_level, level);
   }
+  description.sleep_speed = 0;
   Simulation<Real> simulation(std::move(description));
   for (Cloth<Real>& cloth : simulation.cloths()) {
     cloth.request_level(level);
@@ -102,8 +103,8 @@ Trajectory simulate(SimulationDescription description, const RunPlan& plan, cons
     const double begin = thread_time();
     simulation.step();
     run.step_seconds.push_back(thread_time() - begin);
-    run.finite = simulation.healthy();
-    if (!run.finite) return run;
+    run.sound = simulation.healthy() && simulation.guard_events().empty();
+    if (!run.sound) return run;
     run.frames.push_back(frame_of(simulation));
     if (!watch(frame) && frame < plan.frames) return run;
   }

@@ -34,7 +34,7 @@ struct Trajectory {
   std::vector<double> step_seconds;  ///< this thread's processor time of each step alone, which other
                                      ///< programs hardly disturb; nothing is kept or compared meanwhile
   int substeps = 0;                  ///< of the last step; the most of all cloths
-  bool finite = true;
+  bool sound = true;                 ///< false if the step guard had to step in, which ends the run
   bool complete = false;  ///< all frames asked for are here
 
   /// Median of step_seconds, ms; 0 without steps.
@@ -49,7 +49,7 @@ struct RunPlan {
 };
 
 /// The scene's own start, split or merged to `level` as `weft run --level` does, whatever the cloths' own
-/// limits.
+/// limits. Its cloths never sleep: every step is made.
 template <class Real>
 Simulation<Real> at_level(SimulationDescription description, int level);
 

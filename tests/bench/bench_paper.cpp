@@ -35,6 +35,7 @@ struct Row {
 
 Row measure(SimulationDescription scene, int level, int repetitions) {
   scene.cloths[0].initial_level = level;
+  scene.sleep_speed = 0;  // every step is measured
   Simulation<float> weft(scene);
   Simulation<double> state(scene);
   for (double t = 0; t < kWarmUp; t += scene.time_step) weft.step();
@@ -53,7 +54,7 @@ Row measure(SimulationDescription scene, int level, int repetitions) {
     times.push_back(frame_time(baseline, baseline_frames));
     double_times.push_back(frame_time(baseline_double, baseline_frames));
   }
-  if (!weft.healthy() || weft.report(0).substeps != row.substeps) {
+  if (weft.cloths()[0].guard_counters().all_redone() > 0 || weft.report(0).substeps != row.substeps) {
     std::cerr << "the cloth did not stay sound or changed its substeps: no measurement\n";
     std::exit(EXIT_FAILURE);
   }

@@ -52,10 +52,29 @@ test('a slow clock is told until it is in time again', async () => {
   await page.waitForSelector('#notice', {state: 'hidden'});
 });
 
-test('an unstable scene is told until it is reset', async () => {
-  say({op: 'notice', code: 'unstable', message: 'step 7 went bad'});
-  await notice('step 7 went bad');
+const stats = (state) => ({
+  op: 'stats', f: 9, time: 0.15, step_ms: 0.1, rate: 1, viewers: 1, dropped: 0,
+  cloths: [{cloth: 0, level: 5, simulated_level: 5, nodes: 1089, substeps: 0, state, distance: 5}],
+});
+
+test('a frozen cloth is told until the scene is reset', async () => {
+  say({op: 'notice', code: 'frozen', message: 'cloth: step 7 gave no solution'});
+  await notice('cloth: step 7 gave no solution');
   say({op: 'event', kind: 'reset', f: 0, epoch: 2});
+  await page.waitForSelector('#notice', {state: 'hidden'});
+});
+
+test('a frozen cloth is told until it moves again, beside a slow clock', async () => {
+  say({op: 'notice', code: 'frozen', message: 'cloth: step 8 gave no solution'});
+  say(stats('frozen'));
+  say({op: 'notice', code: 'slow', message: 'the clock runs behind real time'});
+  await notice('cloth: step 8 gave no solution the clock runs behind real time');
+  assert.equal(await page.textContent('#number-substeps'), 'none: frozen');
+  say({op: 'notice', code: 'real_time', message: 'in time again'});
+  say({op: 'notice', code: 'recovered', message: 'cloth: moves again from step 9 on'});
+  await page.waitForSelector('#toasts >> text=cloth: moves again from step 9 on');
+  await notice('cloth: step 8 gave no solution');
+  say(stats('awake'));
   await page.waitForSelector('#notice', {state: 'hidden'});
 });
 

@@ -20,6 +20,7 @@ double stretch(int level, Discretization discretization) {
   scene.effects = {GravityEffect{}};
   scene.integrator = solved_exactly<BackwardEulerDescription>(1, 1);
   scene.time_step = 1;  // long steps: straight to rest
+  scene.sleep_speed = 0;
   Simulation<double> simulation(scene);
   for (int step = 0; step < 100; ++step) simulation.step();
   const Grid& grid = simulation.cloths()[0].particles().grid();

@@ -118,6 +118,7 @@ double slide(Method method, double degrees, double friction, double from, double
   ball.friction = friction;
   scene.balls = {ball};
   scene.effects = {GravityEffect{}};
+  scene.sleep_speed = 0;  // creep is what is measured
   scene.integrator = stepping(method, method == Method::symplectic_euler ? 0
                                       : method == Method::xpbd           ? 10
                                                                          : 1);

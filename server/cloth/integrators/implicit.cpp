@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace weft {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 constexpr int kSpareIterations = 3;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
+/// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
+constexpr double kMissedShare = 1e-3;
 
 using Clock = std::chrono::steady_clock;
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -59,6 +62,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   report.substeps = parameters_.substeps;
   const double h = dt / parameters_.substeps;
   begin_step(particles, *forces.springs);
+  state_->sound = true;
   ContactConstraints<Real>& contacts = state_->contacts;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
@@ -81,6 +85,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     }
     end_substep(particles, contact, h);
   }
+  report.sound = state_->sound;
   return report;
 }
 
@@ -107,9 +112,9 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, double h) {
   const double speed_given = standard_gravity().norm() * h;
   double mass = 0;
   for (const Real node : particles.mass.values()) mass += static_cast<double>(node);
-  const double scale = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid()) +
-                       mass * speed_given * speed_given;
-  s.allowed_error = parameters_.tolerance * parameters_.tolerance * scale;
+  s.scale = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid()) +
+            mass * speed_given * speed_given;
+  s.allowed_error = parameters_.tolerance * parameters_.tolerance * s.scale;
 }
 
 template <class Real>
@@ -158,7 +163,9 @@ int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& fo
   std::fill_n(s.second_order, count, Real(0));
   begin_formula(h);
   guess_move(h);
-  return report.linear_iterations + iterate(particles, forces, &Implicit::searched_change).linear_iterations;
+  const NewtonReport searched = iterate(particles, forces, &Implicit::searched_change);
+  s.sound = s.sound && searched.found;
+  return report.linear_iterations + searched.linear_iterations;
 }
 
 template <class Real>
@@ -196,7 +203,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
         count);
     clear(s.change, count);
     report.linear_iterations += solved.iterations;
-    report.brought_in += changed.brought_in;
+    report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
+    const bool found = changed.taken || solved.decrease <= kMissedShare * s.scale;
+    report.found = report.found || (solved.finite && found);
     if (report.brought_in <= 0 && (left <= 1 || changed.error <= s.allowed_error)) break;
   }
   return report;
@@ -222,7 +231,7 @@ auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrea
     }
   }
   clear(change, state_->system.grid().size());
-  return {};
+  return {0, 0, false};
 }
 
 template <class Real>

@@ -18,6 +18,8 @@ namespace weft {
 /// line search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization,
 /// 2006, chapter 3). Not searched at once, as a halved change does not keep the momentum.
 ///
+/// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
+///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
 /// motion that the formula extrapolates.
@@ -46,8 +48,10 @@ class Implicit final : public Integrator<Real> {
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     ContactConstraints<Real> contacts;
+    double scale = 0;          ///< energy that the substep's motion is of, J
     double allowed_error = 0;  ///< of a solve or a linearisation, J
     bool smooth = true;        ///< the substep was not taken back
+    bool sound = true;         ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, const Springs<Real>& springs);
@@ -57,10 +61,12 @@ class Implicit final : public Integrator<Real> {
   struct NewtonReport {
     int linear_iterations = 0;
     double brought_in = 0;  ///< energy, J; below 0: given off
+    bool found = false;     ///< some change was taken, or none was due
   };
   struct ChangeReport {
     double brought_in = 0;  ///< energy, J
     double error = 0;       ///< how far the springs' linearisation is off, J
+    bool taken = true;      ///< not dropped
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
   using Change = ChangeReport (Implicit::*)(const Springs<Real>& springs, double decrease);

@@ -36,6 +36,8 @@ struct AdvanceReport {
   int linear_iterations = 0;   ///< of implicit methods, all substeps together
   double forces_seconds = 0;   ///< wall time
   double contact_seconds = 0;  ///< wall time
+  double check_seconds = 0;    ///< wall time of the step guard
+  bool sound = true;           ///< false if no next state was found: the particles' is not to be used
 };
 
 /// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods. It

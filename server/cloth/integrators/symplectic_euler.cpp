@@ -54,6 +54,10 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
                         ? description_.substeps
                         : stable_substeps(squared_frequency, rate, dt, description_.safety);
   const double h = dt / report.substeps;
+  if (description_.substeps == 0 && !(squared_frequency * h * h + 2 * rate * h <= 4)) {
+    report.sound = false;  // not even the most substeps are stable
+    return report;
+  }
   // What the rate may grow to within this step: half of the room that the springs leave.
   forces.context.damping_limit = std::max(rate, (4 - squared_frequency * h * h) / (4 * h));
   for (int s = 0; s < report.substeps; ++s) {

@@ -1,5 +1,7 @@
 #include "cloth/solver/conjugate_gradients.h"
 
+#include <cmath>
+
 #include "cloth/kernels/implicit_kernels.h"
 
 namespace weft {
@@ -41,6 +43,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     rz = next;
   }
   report.converged = report.converged || rz == 0;
+  report.finite = std::isfinite(rz);
   return report;
 }
 

@@ -6,6 +6,7 @@ namespace weft {
 struct LinearSolveReport {
   int iterations = 0;
   bool converged = false;
+  bool finite = true;   ///< the system was, as far as it was looked at
   double decrease = 0;  ///< of x . A x / 2 - b . x from x = 0, J; never below 0
 };
 

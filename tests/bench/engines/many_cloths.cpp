@@ -15,6 +15,7 @@ SimulationDescription flags(int count, int level) {
   SimulationDescription description = flag->simulation;
   description.integrator = Bdf2Description{};
   description.time_step = 1.0 / 60;
+  description.sleep_speed = 0;  // every step is measured
   description.cloths[0].initial_level = description.cloths[0].max_level = level;
   description.cloths.assign(static_cast<std::size_t>(count), ClothDescription(description.cloths[0]));
   return description;

@@ -37,6 +37,7 @@ TEST(Reader, DefaultsAreThoseOfTheDescription) {
   EXPECT_TRUE(simulation.balls.empty());
   EXPECT_TRUE(simulation.effects.empty());
   EXPECT_EQ(simulation.time_step, 1.0 / 60);
+  EXPECT_EQ(simulation.sleep_speed, 1e-4);
   EXPECT_EQ(simulation.seed, 1u);
   EXPECT_EQ(simulation.level_policy.thresholds, (std::vector<double>{1, 10}));
   EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{6, 5, 4}));
@@ -140,6 +141,7 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).substeps, 40);
   EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).safety, 0.5);
   EXPECT_EQ(simulation.time_step, 0.01);
+  EXPECT_EQ(simulation.sleep_speed, 0.001);
   EXPECT_EQ(simulation.level_policy.thresholds, (std::vector<double>{1, 2, 4, 8, 16}));
   EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{8, 7, 6, 5, 4, 3}));
   EXPECT_EQ(simulation.level_policy.hysteresis, 0.2);

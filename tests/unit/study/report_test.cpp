@@ -60,7 +60,7 @@ TEST(Trust, SaysWhetherTheReferenceIsConverged) {
   study.levels[0].reference.chaotic = true;
   EXPECT_NE(trust(study, study.levels[0]).find("Chaotic"), std::string::npos);
   study.levels[0].reference.rungs.clear();
-  EXPECT_EQ(trust(study, study.levels[0]), "no reference: no step size stayed finite.");
+  EXPECT_EQ(trust(study, study.levels[0]), "no reference: no step size was stable.");
 }
 
 TEST(Html, HoldsTheStudyAsDataThatCannotEndItsScript) {

@@ -44,7 +44,7 @@ TEST(ParetoFront, DoesNotRewardWhatTheReferenceCannotTell) {
 
 TEST(ParetoFront, LeavesOutRunsNotDone) {
   auto bad = done(1, 0.1);
-  bad.status = Status::not_finite;
+  bad.status = Status::went_bad;
   EXPECT_EQ(best_of({}, 0, {bad, done(2, 0.2)}), std::vector<int>{1});
 }
 
@@ -135,7 +135,7 @@ TEST(Study, ARunThatGoesBadIsSaid) {
   SimulationDescription description = swing();
   description.integrator = SymplecticEulerDescription{1, 0.9};  // far beyond the stability limit
   const Counted counted({3}, 200, description);
-  EXPECT_EQ(counted.study.levels[0].runs[0].status, Status::not_finite);
+  EXPECT_EQ(counted.study.levels[0].runs[0].status, Status::went_bad);
   EXPECT_EQ(counted.study.levels[0].runs[1].status, Status::done);
   EXPECT_TRUE(counted.study.any_done());
 }

@@ -1,0 +1,63 @@
+#include "cloth/kernels/state_kernels.h"
+
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+#include "cloth/multiversion.h"
+
+namespace weft::kernels {
+namespace {
+
+/// Numbers that are not below 0 are ordered as their bits are, infinity and NaN above all of them: an integer
+/// maximum, which the compiler vectorises, misses neither.
+template <class Real>
+using Bits = std::conditional_t<sizeof(Real) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
+
+template <class Real>
+[[gnu::always_inline]] inline Bits<Real> squared_length(Real x, Real y, Real z) {
+  return std::bit_cast<Bits<Real>>(x * x + y * y + z * z);
+}
+
+/// Of the distances between scalars i and i + other.
+template <class Real>
+[[gnu::always_inline]] inline Bits<Real> farthest(const Components<const Real>& row, std::ptrdiff_t other,
+                                                  int count, Bits<Real> most) {
+  for (int i = 0; i < count; ++i) {
+    const Bits<Real> bits =
+        squared_length(row.x[i + other] - row.x[i], row.y[i + other] - row.y[i], row.z[i + other] - row.z[i]);
+    most = bits > most ? bits : most;
+  }
+  return most;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline StateExtremes<Real> state_extremes_any(const Grid& grid,
+                                                                     const Components<const Real>& position,
+                                                                     const Components<const Real>& velocity) {
+  Bits<Real> speed = 0, along_u = 0, along_v = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    const Components<const Real> x = position + grid.index(r, 0);
+    const Components<const Real> v = velocity + grid.index(r, 0);
+    for (int c = 0; c < grid.cols; ++c) {
+      const Bits<Real> bits = squared_length(v.x[c], v.y[c], v.z[c]);
+      speed = bits > speed ? bits : speed;
+    }
+    along_u = farthest<Real>(x, 1, grid.cols - 1, along_u);
+    if (r + 1 < grid.rows) along_v = farthest<Real>(x, grid.stride, grid.cols, along_v);
+  }
+  return {std::bit_cast<Real>(speed), std::bit_cast<Real>(along_u), std::bit_cast<Real>(along_v)};
+}
+
+}  // namespace
+
+WEFT_MULTIVERSION StateExtremes<float> state_extremes(const Grid& grid, Components<const float> position,
+                                                      Components<const float> velocity) {
+  return state_extremes_any<float>(grid, position, velocity);
+}
+WEFT_MULTIVERSION StateExtremes<double> state_extremes(const Grid& grid, Components<const double> position,
+                                                       Components<const double> velocity) {
+  return state_extremes_any<double>(grid, position, velocity);
+}
+
+}  // namespace weft::kernels

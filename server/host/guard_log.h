@@ -1,0 +1,37 @@
+#pragma once
+/// What viewers and the log are told of the step guard's doings in one scene.
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cloth/simulation.h"
+
+namespace weft::host {
+
+/// Belongs to LiveScene; no clock. Since the scene was loaded or reset.
+class GuardLog {
+ public:
+  /// Of recoveries at most one is told in so many steps; the others are counted.
+  static constexpr std::uint64_t kQuietSteps = 60;
+
+  /// A notice of PROTOCOL.md section 3.
+  struct Notice {
+    std::string code, message;
+  };
+  /// What is to be told of the simulation's last step.
+  std::vector<Notice> stepped(const Simulation<float>& simulation);
+  /// What a viewer is told who comes now: a notice for each cloth that is frozen.
+  std::vector<Notice> standing() const;
+  /// `stats`' member `guard`; null while nothing has happened.
+  nlohmann::json stats_json() const;
+
+ private:
+  std::uint64_t redone_ = 0, frozen_ = 0, balls_stopped_ = 0;
+  std::map<std::size_t, std::string> frozen_cloths_;  ///< what was told of each
+  std::uint64_t quiet_until_ = 0;                     ///< step
+  int untold_ = 0;                                    ///< recoveries since the last that was told
+};
+
+}  // namespace weft::host
