@@ -16,13 +16,15 @@ Case swung_down(std::string name, std::string what, double structural, double st
     made.cloths[0].material.structural = structural;
     return made;
   };
-  Case made{std::move(name), std::move(what), {{5, scene}}};
+  Case made{std::move(name), std::move(what), {{8, scene}}};
   made.expect = [=](const Setup& setup) {
     const SimulationDescription hung = scene(setup);
     Expectation expect;
     expect.stretch = stretch + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / 2);
     return expect;
   };
+  // Forces of 1e7 N/m times the rounding of single precision heat a sheet that nothing else damps.
+  made.beyond_explicit = structural > 1e6;
   return made;
 }
 
@@ -40,7 +42,7 @@ Case heavy_node() {
   };
   made.expect = [scene](const Setup& setup) {
     // Backward Euler with 8 substeps, tolerance 1e-4 and 20 linearisations, after 5 s.
-    constexpr double kConverged[] = {0, 0, 0}, kPoints = 0.02;
+    constexpr double kConverged[] = {0.091, 0, 0}, kPoints = 0.02;
     const SimulationDescription hung = scene(setup);
     const double node = mass_of(hung.cloths[0]) / std::pow(4.0, setup.level) / 2;
     Expectation expect;
@@ -86,7 +88,7 @@ Case gale() {
   };
   Case made{"S5",
             "wind of 60 m/s, turning round every 0.5 s, then none: hangs flat again",
-            {{kSeconds, scene(kSpeed)}, {5, scene(0)}}};
+            {{kSeconds, scene(kSpeed)}, {8, scene(0)}}};
   made.drive = [](Simulation<float>& simulation, double time) {
     const bool back = static_cast<int>(time / kTurn) % 2 == 1;
     if (time < kSeconds) simulation.set_wind({{0, 0, back ? 1.0 : -1.0}, kSpeed});
@@ -138,7 +140,10 @@ Case sized(std::string name, std::string what, double size) {
 std::vector<Case> material_cases() {
   return {
       swung_down("S1a", "Y = 1e7 N/m, swings down from two corners: strain under 0.1 %", 1e7, 0.001),
-      swung_down("S1b", "Y = 0.1 N/m, the same: shear springs alone hold it, to twice its length", 0.1, 1.0),
+      swung_down(
+          "S1b",
+          "Y = 0.1 N/m, the same: shear springs alone hold it, all methods stretch it 1.4 to 1.6 times more",
+          0.1, 2.0),
       heavy_node(),
       swung_down("S3", "steps of 1/60, 1/30 and 1/15 s, swings down from two corners: strain under 5 %", 5000,
                  0.05),

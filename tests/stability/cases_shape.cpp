@@ -25,12 +25,13 @@ SimulationDescription placed(const Setup& setup, const std::vector<PinRegion>& p
   return scene;
 }
 
-/// Held by two corners, unfolds: strain under 5 % within 3 s, its centre as high as a flat sheet's.
+/// Held by two corners, unfolds: strain under 5 % within 3 s. Without self-contact a sheet has many shapes at
+/// rest, some of them inside out: which one it finds is not asked.
 Case crumpled(std::string name, std::string what, std::function<Place()> places) {
   const auto scene = [places = std::move(places)](const Setup& setup) {
     return placed(setup, {kTopLeft, kTopRight}, places());
   };
-  Case made{std::move(name), std::move(what), {{5, scene}}};
+  Case made{std::move(name), std::move(what), {{8, scene}}};
   made.expect = [](const Setup& setup) {
     const SimulationDescription hung = ordinary_sheet(setup, {});
     Expectation expect;
@@ -38,8 +39,28 @@ Case crumpled(std::string name, std::string what, std::function<Place()> places)
     expect.stretch_from = 3;
     return expect;
   };
-  made.ending = centre_comes_to(0, 0.1);
+  made.beyond_explicit = true;  // springs of almost no length turn round within a substep
   return made;
+}
+
+/// The same, with nothing to tell the nodes apart: it may stay in the line or plane it is in.
+Case degenerate(std::string name, std::string what, std::function<Place()> places) {
+  Case made = crumpled(std::move(name), std::move(what), std::move(places));
+  made.expect = [](const Setup&) {
+    Expectation expect;
+    expect.stretch = 10;
+    return expect;
+  };
+  return made;
+}
+
+/// `place`, and up to 0.1 mm beside it.
+Place shaken(const Place& place) {
+  return [place, random = std::mt19937_64(2)](int r, int c, const Vec3& flat) mutable -> Vec3 {
+    const auto little = [&] { return 2e-4 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+    const double x = little(), y = little(), z = little();
+    return place(r, c, flat) + Vec3(x, y, z);
+  };
 }
 
 Place random_places() {
@@ -52,7 +73,7 @@ Place random_places() {
 
 Case ribbon() {
   const auto scene = [](const Setup& setup) {
-    SimulationDescription made = ordinary_sheet(setup, {{0, 0, 0, 1}});
+    SimulationDescription made = level_sheet(setup, {{0, 0, 0, 1}});
     made.cloths[0].size = {kSize, kSize / 100};
     return made;
   };
@@ -103,6 +124,7 @@ Case coincident() {
             {{5, scene}}};
   made.expect = settles_within_two_seconds;
   made.ending = hangs_flat(0.01);
+  made.beyond_explicit = true;
   return made;
 }
 
@@ -110,22 +132,20 @@ Case coincident() {
 
 std::vector<Case> shape_cases() {
   // The pinned corners stay at (-1, 1, 0) and (1, 1, 0).
+  const Place on_line = [](int, int, const Vec3& flat) -> Vec3 { return {flat.x(), 1, 0}; };
+  const Place on_point = [](int, int, const Vec3&) -> Vec3 { return {0, 1, 0}; };
+  const Place mirrored = [](int r, int, const Vec3& flat) -> Vec3 {
+    return {r % 2 == 1 ? -flat.x() : flat.x(), flat.y(), flat.z()};
+  };
+  const auto exactly = [](const Place& place) { return [=] { return place; }; };
+  const auto almost = [](const Place& place) { return [=] { return shaken(place); }; };
   return {
-      crumpled("S6a", "all nodes on one line",
-               [] { return [](int, int, const Vec3& flat) -> Vec3 {
-                      return {flat.x(), 1, 0};
-                    }; }),
-      crumpled("S6b", "all nodes on one point",
-               [] { return [](int, int, const Vec3&) -> Vec3 {
-                      return {0, 1, 0};
-                    }; }),
-      crumpled("S6c", "nodes anywhere in the 2 m box", random_places),
-      crumpled("S6d", "every second row mirrored: inverted cells",
-               [] {
-                 return [](int r, int, const Vec3& flat) -> Vec3 {
-                   return {r % 2 == 1 ? -flat.x() : flat.x(), flat.y(), flat.z()};
-                 };
-               }),
+      crumpled("S6a", "all nodes on one line, to 0.1 mm: unfolds", almost(on_line)),
+      crumpled("S6b", "all nodes on one point, to 0.1 mm: unfolds", almost(on_point)),
+      crumpled("S6c", "nodes anywhere in the 2 m box: unfolds", random_places),
+      crumpled("S6d", "every second row mirrored, inverted cells, to 0.1 mm: unfolds", almost(mirrored)),
+      degenerate("S6e", "all nodes on one line, exactly: no division by zero", exactly(on_line)),
+      degenerate("S6f", "all nodes on one point, exactly: no division by zero", exactly(on_point)),
       ribbon(),
       shot_node(),
       coincident(),

@@ -90,14 +90,18 @@ std::vector<Vec3> positions(const Simulation<float>& simulation) {
   return all;
 }
 
-double movement(const Simulation<float>& simulation, std::vector<Vec3>& before) {
-  std::vector<Vec3> now = positions(simulation);
+double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now) {
   double largest = 0;
-  if (before.size() == now.size()) {
-    for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
-  }
-  before = std::move(now);
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
   return largest;
+}
+
+void Jitter::add(std::vector<Vec3> positions) {
+  for (std::size_t i = 0; i < before_last_.size(); ++i) {
+    largest_ = std::max(largest_, (positions[i] - 2 * last_[i] + before_last_[i]).norm());
+  }
+  before_last_ = std::move(last_);
+  last_ = std::move(positions);
 }
 
 }  // namespace weft::stability

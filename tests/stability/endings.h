@@ -9,10 +9,6 @@ namespace weft::stability {
 /// size of there, however it got there.
 Ending hangs_flat(double share);
 
-/// Where a sheet folds, its shape depends on the smallest differences: compared is how high its centre is,
-/// within `share` of the size. `height` is that of the rest shape's centre, m.
-Ending centre_comes_to(double height, double share);
-
 /// Held by its left edge, a ribbon hangs straight down: its free end is its length below, within `share`.
 Ending ribbon_hangs_down(double share);
 

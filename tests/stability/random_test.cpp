@@ -92,8 +92,8 @@ std::vector<std::filesystem::path> regression_files() {
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Regressions, ::testing::ValuesIn(regression_files()), [](const auto& info) {
-  std::string name = info.param.stem().string();
+INSTANTIATE_TEST_SUITE_P(Files, Regressions, ::testing::ValuesIn(regression_files()), [](const auto& each) {
+  std::string name = each.param.stem().string();
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });

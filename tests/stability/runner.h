@@ -7,7 +7,7 @@ namespace weft::stability {
 enum class Verdict {
   pass,
   fail,
-  limit,  ///< the paper's method at a fixed step, beyond which it is not made for: expected, recorded
+  limit,  ///< an explicit method beyond the steps it has: expected, recorded
 };
 const char* name_of(Verdict verdict);
 
@@ -17,7 +17,6 @@ struct Result {
   double stretch = 0;                   ///< largest from the stated time on
   double energy_rise = 0;               ///< largest energy above the start's, as a share of what is allowed
   double penetration = 0;               ///< m, deepest from the stated time on
-  double rest_movement = 0;             ///< m a step, largest at the end
   double milliseconds = 0;              ///< a frame: processor time of this thread, mean
 };
 
