@@ -23,6 +23,8 @@ void check_seeds(std::uint64_t first, std::uint64_t count, int max_level) {
     std::filesystem::create_directories(folder);
     const auto file = folder / ("seed-" + std::to_string(seed) + ".json");
     std::ofstream(file) << scene_json(small).dump(1) << '\n';
+    std::ofstream(folder / ("seed-" + std::to_string(seed) + "-whole.json"))
+        << scene_json(drawn).dump(1) << '\n';
     ADD_FAILURE() << "seed " << seed << ": " << *complaint << "\nshrunk: " << *check(small) << ", " << file;
   }
 }
