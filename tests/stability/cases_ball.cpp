@@ -1,4 +1,5 @@
 // Balls: S8, S10, S20.
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -7,32 +8,43 @@
 namespace weft::stability {
 namespace {
 
-/// Nodes that a ball goes through: with the ball at rest their way of one step, a straight line, comes nearer
-/// to its centre than half of its radius and leaves it again on the other side. A node that slides round it
-/// has to turn by 120 degrees in a step to look like that.
+/// Nodes that a ball goes through as if it were not there: with the ball at rest their way of one step, a
+/// straight line, comes nearer to its centre than half of its radius and leaves it again, and ends within a
+/// quarter of the radius of where the node would have flown alone.
 class Passages {
  public:
   Complaint operator()(const Simulation<float>& simulation, double) {
-    const std::vector<Vec3> nodes = positions(simulation);
-    const std::vector<Ball>& balls = simulation.colliders().balls();
+    std::vector<Vec3> nodes = positions(simulation);
     int passed = 0;
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-      for (const Ball& each : balls) {
-        // Both relative to the ball, which goes from `start` to `position`.
-        const Vec3 from = before_[i] - each.start, to = nodes[i] - each.position, way = to - from;
-        if (from.norm() < each.radius * 0.99 || to.norm() < each.radius * 0.99) continue;
-        const double length = way.squaredNorm();
-        const double nearest = length > 0 ? -from.dot(way) / length : 0;
-        if (nearest > 0 && nearest < 1 && (from + nearest * way).norm() < each.radius / 2) ++passed;
+    for (std::size_t i = 0; i < alone_.size(); ++i) {
+      for (const Ball& each : simulation.colliders().balls()) {
+        const Vec3 from = before_[i] - each.start, to = nodes[i] - each.position;
+        const bool noticed = (nodes[i] - alone_[i]).norm() > each.radius / 4;
+        if (!noticed && nearest(from, to) < each.radius / 2 && to.norm() >= each.radius * 0.99) ++passed;
       }
     }
-    before_ = nodes;
+    alone_.clear();
+    const Particles<float>& state = simulation.cloths()[0].particles();
+    for (int r = 0; r < state.grid().rows; ++r) {
+      for (int c = 0; c < state.grid().cols; ++c) {
+        alone_.push_back(state.position_at(r, c) +
+                         simulation.description().time_step * state.velocity_at(r, c));
+      }
+    }
+    before_ = std::move(nodes);
     if (passed == 0) return {};
     return std::to_string(passed) + " nodes went through a ball";
   }
 
  private:
-  std::vector<Vec3> before_;
+  /// Distance of the origin from the line between the two, m; infinite if it is nearest to one of its ends.
+  static double nearest(const Vec3& from, const Vec3& to) {
+    const Vec3 way = to - from;
+    const double length = way.squaredNorm(), along = length > 0 ? -from.dot(way) / length : 0;
+    return along > 0 && along < 1 ? (from + along * way).norm() : std::numeric_limits<double>::infinity();
+  }
+
+  std::vector<Vec3> before_, alone_;  ///< of every node: where it was, where it flies if nothing stops it
 };
 
 Watch watch_passages(const Setup&) {

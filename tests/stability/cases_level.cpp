@@ -1,4 +1,5 @@
 // The level changed at every step, 4-5-6-5-4: S11.
+#include <cmath>
 #include <memory>
 
 #include "criteria.h"
@@ -14,8 +15,11 @@ int level_at(double time, double time_step) {
 }
 
 /// Compares the energy with the same scene's at a fixed level: above it by at most 1 % of all that can move.
+/// XPBD hangs longer the finer the level is (shape_test.cpp): its energy is compared with the coarsest one's.
 Watch no_more_energy_than_fixed(const Phase& phase, const Setup& setup) {
-  const auto fixed = std::make_shared<Simulation<float>>(phase.scene(setup));
+  SimulationDescription scene = phase.scene(setup);
+  if (setup.method == Method::xpbd) scene.cloths[0].initial_level = scene.cloths[0].min_level;
+  const auto fixed = std::make_shared<Simulation<float>>(scene);
   const Setup strict{Method::bdf2, setup.level, setup.hz};  // 1 % for all methods: both runs are the method's
   const double room = energy_bound(*fixed, strict, 0).allowed;
   const bool springs_count = setup.method != Method::xpbd;

@@ -2,7 +2,8 @@
 //   stability_map > map.csv
 // Explicit methods, a flat sheet with random velocities: the longest stable step, found by bisection, beside
 // the analytic one, 2 / w of its stiffest mode, and beside the step that Weft's choice of substeps rests on,
-// which is stable in any shape. The others, swinging down from two corners: stable or not at every step.
+// which holds whatever way the springs point. The others, swinging down from two corners: stable or not at
+// every step.
 #include <cmath>
 #include <cstdio>
 #include <memory>
