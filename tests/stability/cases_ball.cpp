@@ -1,0 +1,197 @@
+// Balls: S8, S10, S20.
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "criteria.h"
+
+namespace weft::stability {
+namespace {
+
+/// Nodes that a ball goes through as if it were not there: with the ball at rest their way of one step, a
+/// straight line, comes nearer to its centre than half of its radius and leaves it again, and ends within a
+/// quarter of the radius of where the node would have flown alone.
+class Passages {
+ public:
+  Complaint operator()(const Simulation<float>& simulation, double) {
+    std::vector<Vec3> nodes = positions(simulation);
+    int passed = 0;
+    for (std::size_t i = 0; i < alone_.size(); ++i) {
+      for (const Ball& each : simulation.colliders().balls()) {
+        const Vec3 from = before_[i] - each.start, to = nodes[i] - each.position;
+        const bool noticed = (nodes[i] - alone_[i]).norm() > each.radius / 4;
+        if (!noticed && nearest(from, to) < each.radius / 2 && to.norm() >= each.radius * 0.99) ++passed;
+      }
+    }
+    alone_.clear();
+    const Particles<float>& state = simulation.cloths()[0].particles();
+    for (int r = 0; r < state.grid().rows; ++r) {
+      for (int c = 0; c < state.grid().cols; ++c) {
+        alone_.push_back(state.position_at(r, c) +
+                         simulation.description().time_step * state.velocity_at(r, c));
+      }
+    }
+    before_ = std::move(nodes);
+    if (passed == 0) return {};
+    return std::to_string(passed) + " nodes went through a ball";
+  }
+
+ private:
+  /// Distance of the origin from the line between the two, m; infinite if it is nearest to one of its ends.
+  static double nearest(const Vec3& from, const Vec3& to) {
+    const Vec3 way = to - from;
+    const double length = way.squaredNorm(), along = length > 0 ? -from.dot(way) / length : 0;
+    return along > 0 && along < 1 ? (from + along * way).norm() : std::numeric_limits<double>::infinity();
+  }
+
+  std::vector<Vec3> before_, alone_;  ///< of every node: where it was, where it flies if nothing stops it
+};
+
+Watch watch_passages(const Setup&) {
+  const auto passages = std::make_shared<Passages>();
+  return
+      [passages](const Simulation<float>& simulation, double time) { return (*passages)(simulation, time); };
+}
+
+Case shot_through(std::string name, std::string what, double speed, bool pinned) {
+  const auto scene = [=](const Setup& setup) {
+    SimulationDescription made =
+        ordinary_sheet(setup, pinned ? std::vector<PinRegion>{kTopEdge} : std::vector<PinRegion>{});
+    BallDescription fast = ball({0, 0, 1}, 0.1, 0);
+    fast.velocity = {0, 0, -speed};
+    made.balls = {fast};
+    return made;
+  };
+  Case made{std::move(name), std::move(what), {{4, scene}}};
+  made.watch = watch_passages;
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    // Struck by a body that nothing slows, the sheet flies off at twice its speed at most; held, it is pulled
+    // to twice its length before it slips off.
+    const double mass = mass_of(hung.cloths[0]);
+    expect.input = mass * 4 * speed * speed / 2 + (pinned ? 5000 * kSize * kSize / 2 : 0);
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass * 9.81 / (1 << setup.level));
+    expect.stretch_from = 2;
+    expect.rests = pinned;
+    return expect;
+  };
+  return made;
+}
+
+constexpr double kBallRadius = 0.3, kDrapeSeconds = 3;
+
+/// Falls on a ball in the middle, which friction keeps it on.
+SimulationDescription drape(const Setup& setup) {
+  SimulationDescription scene = level_sheet(setup, {});
+  scene.cloths[0].position = {0, kBallRadius + 0.05, 0};
+  scene.balls = {ball({0, 0, 0}, kBallRadius)};
+  return scene;
+}
+
+/// Something happens to the drape at rest, after which no node is inside for more than three steps.
+Case struck_drape(std::string name, std::string what, double struck_radius,
+                  std::function<void(Simulation<float>&)> strike) {
+  Case made{std::move(name), std::move(what), {{kDrapeSeconds + 4, drape}}};
+  made.drive = [strike = std::move(strike)](Simulation<float>& simulation, double time) {
+    const double step = simulation.description().time_step;
+    if (time >= kDrapeSeconds && time < kDrapeSeconds + 0.5 * step) strike(simulation);
+  };
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = drape(setup);
+    Expectation expect;
+    // The struck part is stretched to twice its size in both directions at most.
+    expect.input = 5000 * 4 * std::numbers::pi * struck_radius * struck_radius;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * 9.81 / 2);
+    expect.stretch_from = kDrapeSeconds + 1;
+    expect.penetration_from = kDrapeSeconds + 3.5 * setup.time_step();
+    expect.top_speed = 10;
+    return expect;
+  };
+  return made;
+}
+
+Case rolling_under() {
+  const auto scene = [](const Setup& setup) {
+    SimulationDescription made = level_sheet(setup, {kTopLeft, kTopRight, kBottomLeft, kBottomRight});
+    BallDescription rolling = ball({0, 0, 0}, 0.25, 0.3);
+    // To and fro at 0.5 m/s, a little below the sheet, which it lifts by a tenth of a metre.
+    rolling.path = {{0, {-0.5, -0.5, 0}}};
+    for (int turn = 0; turn <= 30; ++turn) {
+      rolling.path.push_back({1 + 2.0 * turn, {turn % 2 == 0 ? -0.5 : 0.5, -0.15, 0}});
+    }
+    made.balls = {rolling};
+    return made;
+  };
+  Case made{
+      "S20a", "ball rolls to and fro under a sheet held by its corners: none passes through", {{8, scene}}};
+  made.nightly_seconds = 60;
+  made.watch = watch_passages;
+  made.expect = [scene](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    // Lifts the sheet by 0.1 m a turn at most, and rubs at 0.3 of its weight along the way.
+    const double seconds = 60;
+    expect.input = mass_of(hung.cloths[0]) * 9.81 * (0.1 + 0.3 * 0.5) * seconds;
+    expect.stretch = 0.1 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * 9.81);
+    expect.rests = false;
+    return expect;
+  };
+  return made;
+}
+
+Case resting_on() {
+  constexpr double kMass = 1, kRadius = 0.2;
+  const auto scene = [](const Setup& setup) {
+    SimulationDescription made = level_sheet(setup, {kTopLeft, kTopRight, kBottomLeft, kBottomRight});
+    BallDescription dropped = ball({0, kRadius + 0.02, 0}, kRadius);
+    dropped.motion = BallDescription::Motion::dynamic;
+    dropped.mass = kMass;
+    made.balls = {dropped};
+    return made;
+  };
+  Case made{
+      "S20b", "ball of 1 kg laid onto a sheet of 0.4 kg held by its corners, rests there", {{10, scene}}};
+  made.watch = watch_passages;
+  made.expect = [scene](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    expect.stretch = 0.1 + xpbd_excess(hung, setup, (kMass + mass_of(hung.cloths[0])) * 9.81 / 2);
+    expect.stretch_from = 4;
+    expect.rests = false;  // the ball itself is not damped
+    return expect;
+  };
+  made.ending = [](const Simulation<float>& simulation, const Setup&) -> Complaint {
+    const Ball& dropped = simulation.colliders().balls()[0];
+    if (dropped.position.y() > -kSize / 2 && dropped.velocity.norm() < 0.5) return {};
+    return "ball is at " + std::to_string(dropped.position.y()) + " m with " +
+           std::to_string(dropped.velocity.norm()) + " m/s; should rest on the sheet";
+  };
+  return made;
+}
+
+}  // namespace
+
+std::vector<Case> ball_cases() {
+  const auto second_ball = [](Simulation<float>& simulation) {
+    simulation.add_ball(ball({kBallRadius, -kBallRadius, 0}, 0.2));
+  };
+  const auto twice_as_large = [](Simulation<float>& simulation) {
+    simulation.remove_ball(simulation.colliders().balls()[0].id);
+    simulation.add_ball(ball({0, 0, 0}, 2 * kBallRadius));
+  };
+  return {
+      shot_through("S8a", "ball of 0.1 m at 100 m/s through the free sheet: no node passes", 100, false),
+      shot_through("S8b", "ball of 0.1 m at 200 m/s through the free sheet", 200, false),
+      shot_through("S8c", "ball of 0.1 m at 100 m/s through the hung sheet", 100, true),
+      shot_through("S8d", "ball of 0.1 m at 200 m/s through the hung sheet", 200, true),
+      struck_drape("S10a", "ball put inside the resting drape: out within 3 steps, under 10 m/s", 0.2,
+                   second_ball),
+      struck_drape("S10b", "radius of the draped ball doubled in one step: the same", 2 * kBallRadius,
+                   twice_as_large),
+      rolling_under(),
+      resting_on(),
+  };
+}
+
+}  // namespace weft::stability

@@ -1,0 +1,158 @@
+// Stiffness, mass, step and load: S1 to S5, S13.
+#include <cmath>
+#include <numbers>
+
+#include "endings.h"
+
+namespace weft::stability {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// Swings down from lying flat, held by two corners: each bears half of the weight.
+Case swung_down(std::string name, std::string what, double structural, double stretch) {
+  const auto scene = [structural](const Setup& setup) {
+    SimulationDescription made = level_sheet(setup, {kTopLeft, kTopRight});
+    made.cloths[0].material.structural = structural;
+    return made;
+  };
+  Case made{std::move(name), std::move(what), {{8, scene}}};
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    expect.stretch = stretch + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / 2);
+    return expect;
+  };
+  // Forces of 1e7 N/m times the rounding of single precision heat a sheet that nothing else damps.
+  made.beyond_explicit = structural > 1e6;
+  return made;
+}
+
+Case heavy_node() {
+  constexpr double kHeavier = 1e4;
+  const auto scene = [](const Setup& setup) { return ordinary_sheet(setup, {kTopEdge}); };
+  Case made{"S2",
+            "one node of the free edge 1e4 times heavier: strain within 2 points of the converged",
+            {{5, scene}}};
+  made.prepare = [](Simulation<float>& simulation) {
+    Particles<float>& state = simulation.cloths()[0].particles();
+    const int row = state.grid().rows - 1, col = state.grid().cols / 2;
+    state.mass.at(row, col) *= static_cast<float>(kHeavier);
+    state.inverse_mass.at(row, col) = 1 / state.mass.at(row, col);
+  };
+  made.expect = [scene](const Setup& setup) {
+    // Backward Euler in double precision with 4 substeps, a tolerance of 1e-4 and 20 linearisations, after 5
+    // s.
+    constexpr double kConverged[] = {0.0910, 0.0470, 0.0239}, kPoints = 0.02;
+    const SimulationDescription hung = scene(setup);
+    const double node = mass_of(hung.cloths[0]) / std::pow(4.0, setup.level) / 2;
+    Expectation expect;
+    expect.stretch =
+        kConverged[setup.level - 4] + kPoints + xpbd_excess(hung, setup, kHeavier * node * kGravity);
+    expect.stretch_from = 4;
+    // What it falls by when it is let go is the sheet's stretch, under a tenth of a metre.
+    expect.input = kHeavier * node * kGravity * 0.1;
+    return expect;
+  };
+  return made;
+}
+
+Case hundred_g() {
+  const auto scene = [](double share) {
+    return [share](const Setup& setup) {
+      SimulationDescription made = level_sheet(setup, {kTopEdge});
+      made.effects[0] = GravityEffect{share * standard_gravity()};
+      return made;
+    };
+  };
+  Case made{
+      "S4", "100 g for 2 s, then 1 g: comes back to the shape at 1 g", {{2, scene(100)}, {5, scene(1)}}};
+  made.expect = [scene](const Setup& setup) {
+    const SimulationDescription hung = scene(1)(setup);
+    Expectation expect;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
+    return expect;
+  };
+  made.ending = hangs_flat(0.01);
+  return made;
+}
+
+Case gale() {
+  constexpr double kSpeed = 60, kTurn = 0.5, kSeconds = 5;
+  const auto scene = [](double speed) {
+    return [speed](const Setup& setup) {
+      SimulationDescription made = ordinary_sheet(setup, {kTopEdge});
+      made.effects.emplace_back(AerodynamicsEffect{});
+      made.wind = {{0, 0, -1}, speed};
+      return made;
+    };
+  };
+  Case made{"S5",
+            "wind of 60 m/s, turning round every 0.5 s, then none: hangs flat again",
+            {{kSeconds, scene(kSpeed)}, {8, scene(0)}}};
+  made.drive = [](Simulation<float>& simulation, double time) {
+    const bool back = static_cast<int>(time / kTurn) % 2 == 1;
+    if (time < kSeconds) simulation.set_wind({{0, 0, back ? 1.0 : -1.0}, kSpeed});
+  };
+  made.expect = [scene](const Setup& setup) {
+    const SimulationDescription hung = scene(0)(setup);
+    const AerodynamicsEffect air;
+    // Its pressure takes the sheet at most from one side to the other.
+    const double pressure = air.air_density * air.drag * kSpeed * kSpeed / 2;
+    Expectation expect;
+    expect.input = pressure * kSize * kSize * 2 * kSize;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
+    return expect;
+  };
+  made.ending = hangs_flat(0.01);
+  return made;
+}
+
+/// Of structural springs alone, as its stretch is then known to rounding: swings down from 30 degrees.
+Case sized(std::string name, std::string what, double size) {
+  const double swing = 1.202 * std::sqrt(kGravity / size);  // 1/s: j01/2 sqrt(g/L), T8 of the truths
+  const double seconds = 12 / swing;                        // e^-12 of the swing is left
+  const auto scene = [=](const Setup& setup) {
+    SimulationDescription made = ordinary_sheet(setup, {kTopEdge});
+    ClothDescription& cloth = made.cloths[0];
+    cloth.size = {size, size};
+    cloth.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitX()));
+    cloth.material.shear = cloth.material.bending = 0;
+    cloth.material.damping = 2 * swing * cloth.material.density;  // critical
+    return made;
+  };
+  Case made{std::move(name), std::move(what), {{std::max(1.0, seconds), scene}}};
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    const Material& material = hung.cloths[0].material;
+    Expectation expect;
+    const double at_rest = material.density * kGravity * size / material.structural;  // at the top
+    expect.stretch = 0.01 + 1.01 * at_rest +
+                     xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
+    expect.stretch_from = std::max(0.8, 0.8 * seconds);
+    return expect;
+  };
+  made.ending = hangs_flat(0.01);
+  return made;
+}
+
+}  // namespace
+
+std::vector<Case> material_cases() {
+  return {
+      swung_down("S1a", "Y = 1e7 N/m, swings down from two corners: strain under 0.1 %", 1e7, 0.001),
+      swung_down(
+          "S1b",
+          "Y = 0.1 N/m, the same: shear springs alone hold it, all methods stretch it 1.4 to 1.6 times more",
+          0.1, 2.0),
+      heavy_node(),
+      swung_down("S3", "steps of 1/60, 1/30 and 1/15 s, swings down from two corners: strain under 5 %", 5000,
+                 0.05),
+      hundred_g(),
+      gale(),
+      sized("S13a", "sheet of 1 mm: hangs as the formula says, relative to its size", 1e-3),
+      sized("S13b", "sheet of 1 km: the same", 1e3),
+  };
+}
+
+}  // namespace weft::stability

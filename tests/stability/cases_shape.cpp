@@ -1,0 +1,155 @@
+// Hopeless shapes and shocks: S6, S12, S18, S19.
+#include <random>
+
+#include "endings.h"
+
+namespace weft::stability {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// A start position for the node at row r and column c, which the flat sheet has at `flat`.
+using Place = std::function<Vec3(int r, int c, const Vec3& flat)>;
+
+/// The sheet hung by `pins`, its nodes put elsewhere but for the pinned ones.
+SimulationDescription placed(const Setup& setup, const std::vector<PinRegion>& pins, const Place& place) {
+  SimulationDescription scene = ordinary_sheet(setup, pins);
+  const Simulation<float> flat(scene);
+  const Particles<float>& state = flat.cloths()[0].particles();
+  for (int r = 0; r < state.grid().rows; ++r) {
+    for (int c = 0; c < state.grid().cols; ++c) {
+      const Vec3 at = state.position_at(r, c);
+      scene.cloths[0].nodes.push_back(state.inverse_mass.at(r, c) == 0 ? at : place(r, c, at));
+    }
+  }
+  return scene;
+}
+
+/// Held by two corners, unfolds: strain under 5 % within 3 s. Without self-contact a sheet has many shapes at
+/// rest, some of them inside out: which one it finds is not asked.
+Case crumpled(std::string name, std::string what, std::function<Place()> places) {
+  const auto scene = [places = std::move(places)](const Setup& setup) {
+    return placed(setup, {kTopLeft, kTopRight}, places());
+  };
+  Case made{std::move(name), std::move(what), {{8, scene}}};
+  made.expect = [](const Setup& setup) {
+    const SimulationDescription hung = ordinary_sheet(setup, {});
+    Expectation expect;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / 2);
+    expect.stretch_from = 3;
+    return expect;
+  };
+  made.beyond_explicit = true;  // springs of almost no length turn round within a substep
+  return made;
+}
+
+/// The same, with nothing to tell the nodes apart: it may stay in the line or plane it is in.
+Case degenerate(std::string name, std::string what, std::function<Place()> places) {
+  Case made = crumpled(std::move(name), std::move(what), std::move(places));
+  made.expect = [](const Setup&) {
+    Expectation expect;
+    expect.stretch = 10;
+    return expect;
+  };
+  return made;
+}
+
+/// `place`, and up to 0.1 mm beside it.
+Place shaken(const Place& place) {
+  return [place, random = std::mt19937_64(2)](int r, int c, const Vec3& flat) mutable -> Vec3 {
+    const auto little = [&] { return 2e-4 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+    const double x = little(), y = little(), z = little();
+    return place(r, c, flat) + Vec3(x, y, z);
+  };
+}
+
+Place random_places() {
+  return [random = std::mt19937_64(1)](int, int, const Vec3&) mutable -> Vec3 {
+    const auto within_box = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    const double x = within_box(), y = within_box(), z = within_box();
+    return {x, y, z};
+  };
+}
+
+Case ribbon() {
+  const auto scene = [](const Setup& setup) {
+    SimulationDescription made = level_sheet(setup, {{0, 0, 0, 1}});
+    made.cloths[0].size = {kSize, kSize / 100};
+    return made;
+  };
+  Case made{
+      "S12", "cells of 1 : 100, a ribbon of 2 m x 2 cm falls from lying: hangs straight down", {{5, scene}}};
+  made.expect = [scene](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
+    return expect;
+  };
+  made.ending = ribbon_hangs_down(0.01);
+  return made;
+}
+
+Expectation settles_within_two_seconds(const Setup& setup) {
+  const SimulationDescription hung = ordinary_sheet(setup, {kTopEdge});
+  Expectation expect;
+  expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
+  expect.stretch_from = 2;
+  return expect;
+}
+
+Case shot_node() {
+  constexpr float kSpeed = 1000;
+  Case made{"S18",
+            "1,000 m/s on one node: bounded by its energy, hangs flat again",
+            {{5, [](const Setup& setup) { return ordinary_sheet(setup, {kTopEdge}); }}}};
+  made.prepare = [](Simulation<float>& simulation) {
+    Particles<float>& state = simulation.cloths()[0].particles();
+    state.velocity.z.at(state.grid().rows / 2, state.grid().cols / 2) = kSpeed;
+  };
+  made.expect = settles_within_two_seconds;
+  made.ending = hangs_flat(0.01);
+  return made;
+}
+
+Case coincident() {
+  const auto scene = [](const Setup& setup) {
+    const int middle = 1 << (setup.level - 1);
+    const double cell = kSize / (1 << setup.level);
+    return placed(setup, {kTopEdge}, [=](int r, int c, const Vec3& flat) -> Vec3 {
+      return flat + Vec3(c == middle ? -cell : 0, r == middle ? cell : 0, 0);
+    });
+  };
+  Case made{"S19",
+            "a row and a column lie on their neighbours: no division by zero, hangs flat again",
+            {{5, scene}}};
+  made.expect = settles_within_two_seconds;
+  made.ending = hangs_flat(0.01);
+  made.beyond_explicit = true;
+  return made;
+}
+
+}  // namespace
+
+std::vector<Case> shape_cases() {
+  // The pinned corners stay at (-1, 1, 0) and (1, 1, 0).
+  const Place on_line = [](int, int, const Vec3& flat) -> Vec3 { return {flat.x(), 1, 0}; };
+  const Place on_point = [](int, int, const Vec3&) -> Vec3 { return {0, 1, 0}; };
+  const Place mirrored = [](int r, int, const Vec3& flat) -> Vec3 {
+    return {r % 2 == 1 ? -flat.x() : flat.x(), flat.y(), flat.z()};
+  };
+  const auto exactly = [](const Place& place) { return [=] { return place; }; };
+  const auto almost = [](const Place& place) { return [=] { return shaken(place); }; };
+  return {
+      crumpled("S6a", "all nodes on one line, to 0.1 mm: unfolds", almost(on_line)),
+      crumpled("S6b", "all nodes on one point, to 0.1 mm: unfolds", almost(on_point)),
+      crumpled("S6c", "nodes anywhere in the 2 m box: unfolds", random_places),
+      crumpled("S6d", "every second row mirrored, inverted cells, to 0.1 mm: unfolds", almost(mirrored)),
+      degenerate("S6e", "all nodes on one line, exactly: no division by zero", exactly(on_line)),
+      degenerate("S6f", "all nodes on one point, exactly: no division by zero", exactly(on_point)),
+      ribbon(),
+      shot_node(),
+      coincident(),
+  };
+}
+
+}  // namespace weft::stability

@@ -1,0 +1,111 @@
+#include "criteria.h"
+
+#include <algorithm>
+
+#include "cloth/diagnostics.h"
+
+namespace weft::stability {
+namespace {
+
+void read_springs(const Cloth<float>& cloth, Reading& reading) {
+  const Particles<float>& state = cloth.particles();
+  const Grid& grid = state.grid();
+  for (const SpringFamily& family : cloth.springs().families()) {
+    if (family.rows + std::abs(family.cols) != 1) continue;  // structural ones join neighbours
+    for (int r = 0; r + family.rows < grid.rows; ++r) {
+      for (int c = 0; c + family.cols < grid.cols; ++c) {
+        const Vec3 d = state.position_at(r, c) - state.position_at(r + family.rows, c + family.cols);
+        const double strain = d.norm() / family.rest_length - 1;
+        reading.stretch = std::max(reading.stretch, strain);
+        reading.compression = std::max(reading.compression, -strain);
+      }
+    }
+  }
+}
+
+void read_nodes(const Cloth<float>& cloth, const std::vector<Ball>& balls, Reading& reading) {
+  const Particles<float>& state = cloth.particles();
+  for (int r = 0; r < state.grid().rows; ++r) {
+    for (int c = 0; c < state.grid().cols; ++c) {
+      reading.speed = std::max(reading.speed, state.velocity_at(r, c).norm());
+      if (state.inverse_mass.at(r, c) == 0) continue;  // pinned nodes stay where they are
+      for (const Ball& each : balls) {
+        const double depth = each.radius - (state.position_at(r, c) - each.position).norm();
+        reading.penetration = std::max(reading.penetration, depth);
+      }
+    }
+  }
+}
+
+bool falls(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
+
+}  // namespace
+
+Reading read(const Simulation<float>& simulation, bool springs_count) {
+  Reading reading;
+  const std::vector<Ball>& balls = simulation.colliders().balls();
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    const Particles<float>& state = cloth.particles();
+    reading.energy += kinetic_energy(state) + gravitational_energy(state, simulation.gravity());
+    if (springs_count) reading.energy += cloth.springs().energy(state.position);
+    read_springs(cloth, reading);
+    read_nodes(cloth, balls, reading);
+  }
+  for (const Ball& each : balls) {
+    if (!falls(each)) continue;
+    reading.energy += each.mass * (each.velocity.squaredNorm() / 2 - simulation.gravity().dot(each.position));
+  }
+  return reading;
+}
+
+EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup, double input) {
+  constexpr double kRoom = 0.01, kModifiedEnergy = 19, kRoundingStrain = 1e-4;
+  EnergyBound bound;
+  bound.start = read(simulation, true).energy;
+  double moving = input, rounding = 0;
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    const Particles<float>& state = cloth.particles();
+    // Single precision gives any sheet a strain of its own.
+    const ClothDescription& made = cloth.description();
+    const double stiffness = made.material.structural + made.material.shear + 4 * made.material.bending;
+    rounding += stiffness * made.size.x() * made.size.y() * kRoundingStrain * kRoundingStrain / 2;
+    // Held by an edge it falls by its height, and back up on the other side.
+    const double fall = cloth.description().size.norm();
+    moving += kinetic_energy(state) + cloth.springs().energy(state.position) +
+              cloth.total_mass() * simulation.gravity().norm() * fall;
+  }
+  for (const Ball& each : simulation.colliders().balls()) {
+    if (falls(each))
+      moving += each.mass * (each.velocity.squaredNorm() / 2 + simulation.gravity().norm() * kSize);
+  }
+  const bool is_explicit = setup.method == Method::explicit_fixed || setup.method == Method::symplectic_euler;
+  bound.allowed = rounding + input + moving * (is_explicit ? kModifiedEnergy - 1 : kRoom);
+  return bound;
+}
+
+std::vector<Vec3> positions(const Simulation<float>& simulation) {
+  std::vector<Vec3> all;
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    const Particles<float>& state = cloth.particles();
+    for (int r = 0; r < state.grid().rows; ++r) {
+      for (int c = 0; c < state.grid().cols; ++c) all.push_back(state.position_at(r, c));
+    }
+  }
+  return all;
+}
+
+double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now) {
+  double largest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
+  return largest;
+}
+
+void Jitter::add(std::vector<Vec3> positions) {
+  for (std::size_t i = 0; i < before_last_.size(); ++i) {
+    largest_ = std::max(largest_, (positions[i] - 2 * last_[i] + before_last_[i]).norm());
+  }
+  before_last_ = std::move(last_);
+  last_ = std::move(positions);
+}
+
+}  // namespace weft::stability

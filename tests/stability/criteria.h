@@ -1,0 +1,56 @@
+#pragma once
+/// What is read off a run after every step, and the criteria that every case shares:
+///  - every number is finite;
+///  - the energy stays below what was put in: the energy at the start and the work of gravity (both are in
+///  the
+///    total energy, which may only fall) and the input a case states, with 1 % of all that moves as room.
+///    Symplectic Euler conserves a modified energy instead, whose ratio to the true one lies, for a mode of
+///    angular frequency w, within 1 +- w h / 2 (Hairer, Lubich and Wanner, Geometric Numerical Integration,
+///    2006, I.1): at the 0.9 its steps are chosen for, that is up to 19 times what was put in.
+///    XPBD leaves constraints unsolved, which is no energy that ever comes back: its springs are not counted;
+///  - from a stated time on no structural spring is stretched beyond a stated limit. Compression is no harm:
+///    a spring mesh shortens where cloth has folds finer than the mesh;
+///  - no node is inside a ball deeper than stated;
+///  - at the end it has settled, the root mean square of the speeds under 1 % of a fall through its size, and
+///    nothing jitters: from step to step no node's move changes by 1e-5 of the size. A slow sway is no
+///    jitter.
+#include "case.h"
+
+namespace weft::stability {
+
+/// The state of a run after a step.
+struct Reading {
+  double energy = 0;       ///< J, of cloth and dynamic balls
+  double stretch = 0;      ///< of structural springs, relative
+  double compression = 0;  ///< the same, of those shortened
+  double penetration = 0;  ///< m
+  double speed = 0;        ///< of the fastest node, m/s
+};
+/// `springs_count`: whether the energy holds the springs'.
+Reading read(const Simulation<float>& simulation, bool springs_count);
+
+/// Largest energy that a run may have.
+struct EnergyBound {
+  double start = 0;    ///< J
+  double allowed = 0;  ///< J above it
+};
+EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup, double input);
+
+/// The largest distance of a node from where it was, m.
+double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now);
+
+/// How nodes shake: the largest change of a node's move from one step to the next.
+class Jitter {
+ public:
+  void add(std::vector<Vec3> positions);
+  double largest() const { return largest_; }  ///< m
+
+ private:
+  std::vector<Vec3> last_, before_last_;
+  double largest_ = 0;
+};
+
+/// Where the nodes are, row by row.
+std::vector<Vec3> positions(const Simulation<float>& simulation);
+
+}  // namespace weft::stability

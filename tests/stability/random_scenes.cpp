@@ -1,0 +1,154 @@
+#include "random_scenes.h"
+
+#include <cmath>
+#include <random>
+
+#include "cloth/integrators/symplectic_euler.h"
+#include "cloth/refine.h"
+
+namespace weft::stability {
+namespace {
+
+/// Draws whose values the standard fixes: from the generator's bits, not through its distributions.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+  }
+  /// Every decade as likely as the other.
+  double decades(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  bool chance(double share) { return between(0, 1) < share; }
+  int integer(int low, int high) {  // both included
+    return low + static_cast<int>(random_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  Vec3 in_box(double half) {
+    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
+    return {x, y, z};
+  }
+  Vec3 direction() {
+    Vec3 drawn = in_box(1);
+    while (drawn.norm() < 0.1 || drawn.norm() > 1) drawn = in_box(1);
+    return drawn.normalized();
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+Material draw_material(Draw& draw, Discretization discretization) {
+  Material material;
+  material.density = draw.decades(0.01, 10);
+  material.structural = draw.decades(1, 1e6);
+  material.shear = draw.chance(0.1) ? 0 : draw.decades(0.1, 1e5);
+  material.bending = draw.chance(0.2) ? 0 : draw.decades(0.01, 1e4);
+  material.damping = draw.decades(1e-3, 10) * (discretization == Discretization::paper ? 1e-3 : 1);
+  return material;
+}
+
+ClothDescription draw_cloth(Draw& draw, int max_level) {
+  ClothDescription cloth;
+  const double size = draw.decades(0.05, 50);
+  cloth.size = {size, std::max(1e-3, size * draw.decades(0.05, 1))};
+  cloth.base_cells = {draw.integer(1, 3), draw.integer(1, 2)};
+  cloth.position = draw.in_box(1);
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(draw.between(0, 3.1), draw.direction()));
+  if (draw.chance(0.3)) cloth.velocity = draw.in_box(20);
+  if (draw.chance(0.5)) cloth.perturbation = 0.02 * size * draw.between(0, 1);
+  if (draw.chance(0.2)) cloth.discretization = Discretization::paper;
+  cloth.material = draw_material(draw, cloth.discretization);
+  cloth.min_level = kMinLevel;
+  cloth.max_level = draw.integer(kMinLevel, max_level);
+  cloth.initial_level = draw.integer(cloth.min_level, cloth.max_level);
+  for (int pins = draw.integer(0, 4); pins > 0; --pins) {
+    const double u = draw.between(0, 1), v = draw.between(0, 1);
+    const bool patch = draw.chance(0.3);
+    cloth.pins.push_back({u, patch ? std::min(1.0, u + 0.3) : u, v, v});
+  }
+  return cloth;
+}
+
+BallDescription draw_ball(Draw& draw, const ClothDescription& cloth) {
+  const double size = cloth.size.maxCoeff();
+  BallDescription ball;
+  ball.radius = size * draw.decades(0.03, 0.5);
+  ball.position = cloth.position + draw.in_box(size);
+  ball.friction = draw.chance(0.3) ? 0 : draw.between(0, 2);
+  if (draw.chance(0.4)) {
+    ball.motion = BallDescription::Motion::dynamic;
+    ball.mass = draw.decades(0.01, 100);
+  }
+  if (ball.motion == BallDescription::Motion::kinematic && draw.chance(0.3)) {
+    for (const double time : {0.2, 0.8, 1.4}) ball.path.push_back({time, cloth.position + draw.in_box(size)});
+    ball.position = ball.path.front().position;
+  } else if (draw.chance(0.7)) {
+    ball.velocity = draw.in_box(draw.decades(0.1, 50));
+  }
+  return ball;
+}
+
+std::vector<EffectDescription> draw_effects(Draw& draw) {
+  std::vector<EffectDescription> effects;
+  if (draw.chance(0.9)) {
+    effects.emplace_back(GravityEffect{draw.chance(0.7) ? standard_gravity() : draw.in_box(100)});
+  }
+  if (draw.chance(0.7)) effects.emplace_back(DampingEffect{});
+  if (draw.chance(0.2)) effects.emplace_back(PaperWindEffect{draw.decades(1e-3, 1), draw.chance(0.5)});
+  if (draw.chance(0.5)) effects.emplace_back(AerodynamicsEffect{draw.between(0, 2), draw.between(0, 3)});
+  return effects;
+}
+
+template <class Implicit>
+Implicit draw_implicit(Draw& draw) {
+  Implicit implicit;
+  implicit.substeps = draw.integer(1, 3);
+  implicit.tolerance = draw.decades(1e-4, 0.1);
+  implicit.newton_iterations = draw.integer(1, 4);
+  implicit.linear_iterations = draw.integer(5, 100);
+  return implicit;
+}
+
+/// Substeps that symplectic Euler would take at the finest level, its drag aside.
+int explicit_substeps(const SimulationDescription& scene) {
+  const ClothDescription& cloth = scene.cloths[0];
+  const Grid grid = cloth.base_cells.at(cloth.max_level);
+  Field<float> mass(grid);
+  mass_distribution(cloth.material.density * cloth.size.x() * cloth.size.y(), cloth.discretization, mass);
+  const Springs<float> springs(cloth.material, cloth.discretization, cloth.size, grid);
+  return stable_substeps(springs.max_squared_frequency(mass), 0, scene.time_step, 0.9);
+}
+
+IntegratorDescription draw_integrator(Draw& draw, const SimulationDescription& scene) {
+  constexpr int kMostSubsteps = 300;
+  switch (draw.integer(0, 3)) {
+    case 0:
+      if (explicit_substeps(scene) <= kMostSubsteps)
+        return SymplecticEulerDescription{0, draw.between(0.3, 0.9)};
+      [[fallthrough]];
+    case 1:
+      return draw_implicit<BackwardEulerDescription>(draw);
+    case 2:
+      return XpbdDescription{draw.integer(1, 60)};
+    default:
+      return draw_implicit<Bdf2Description>(draw);
+  }
+}
+
+}  // namespace
+
+SimulationDescription random_scene(std::uint64_t seed, int max_level) {
+  Draw draw(seed);
+  SimulationDescription scene;
+  scene.seed = seed;
+  scene.cloths = {draw_cloth(draw, max_level)};
+  for (int balls = draw.integer(0, 3); balls > 0; --balls)
+    scene.balls.push_back(draw_ball(draw, scene.cloths[0]));
+  scene.effects = draw_effects(draw);
+  scene.wind = {draw.direction(), draw.chance(0.2) ? 100.0 : draw.between(0, 30)};
+  scene.time_step = draw.chance(0.4) ? 1.0 / 60 : draw.decades(1.0 / 240, 0.1);
+  scene.integrator = draw_integrator(draw, scene);
+  return scene;
+}
+
+}  // namespace weft::stability

@@ -1,0 +1,105 @@
+// Scenes drawn from fixed seeds, and the scenes that once failed. One that fails is shrunk and written beside
+// the table: repaired, it goes into regressions/.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "random_scenes.h"
+#include "scene/scene.h"
+#include "scene_json.h"
+
+namespace weft::stability {
+namespace {
+
+void check_seeds(std::uint64_t first, std::uint64_t count, int max_level) {
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const SimulationDescription drawn = random_scene(seed, max_level);
+    const Complaint complaint = check(drawn);
+    if (!complaint) continue;
+    const SimulationDescription small =
+        shrink(drawn, [](const SimulationDescription& scene) { return check(scene).has_value(); });
+    const std::filesystem::path folder = WEFT_STABILITY_REPORT;
+    std::filesystem::create_directories(folder);
+    const auto file = folder / ("seed-" + std::to_string(seed) + ".json");
+    std::ofstream(file) << scene_json(small).dump(1) << '\n';
+    std::ofstream(folder / ("seed-" + std::to_string(seed) + "-whole.json"))
+        << scene_json(drawn).dump(1) << '\n';
+    ADD_FAILURE() << "seed " << seed << ": " << *complaint << "\nshrunk: " << *check(small) << ", " << file;
+  }
+}
+
+class RandomScenes : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomScenes, AreFiniteAndBounded) { check_seeds(GetParam(), 10, 4); }
+INSTANTIATE_TEST_SUITE_P(Stability, RandomScenes, ::testing::Range<std::uint64_t>(1, 101, 10));
+
+class NightlyScenes : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(NightlyScenes, AreFiniteAndBounded) { check_seeds(GetParam(), 100, 5); }
+INSTANTIATE_TEST_SUITE_P(Nightly, NightlyScenes, ::testing::Range<std::uint64_t>(1000, 3000, 100));
+
+TEST(RandomScene, IsTheSameForTheSameSeed) {
+  EXPECT_EQ(scene_json(random_scene(7, 4)), scene_json(random_scene(7, 4)));
+  EXPECT_NE(scene_json(random_scene(7, 4)), scene_json(random_scene(8, 4)));
+}
+
+TEST(RandomScene, IsASceneFile) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const SimulationDescription drawn = random_scene(seed, 4);
+    const scene::Result read = scene::from_json(scene_json(drawn), "drawn");
+    if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&read)) {
+      ADD_FAILURE() << "seed " << seed << ": " << problems->front().text();
+    } else {
+      // Read back it is the same scene, to the rounding of a quaternion and a direction made unit again.
+      const SimulationDescription& again = std::get<scene::Scene>(read).simulation;
+      EXPECT_EQ(again.balls.size(), drawn.balls.size());
+      EXPECT_EQ(scene_json(again)["cloths"][0]["material"], scene_json(drawn)["cloths"][0]["material"]);
+      EXPECT_EQ(scene_json(again)["integrator"], scene_json(drawn)["integrator"]);
+      EXPECT_EQ(scene_json(again)["effects"], scene_json(drawn)["effects"]);
+    }
+  }
+}
+
+// A failure that hangs on two things at once is shrunk to these two.
+TEST(Shrink, LeavesWhatTheFailureNeeds) {
+  const auto fails = [](const SimulationDescription& scene) {
+    return !scene.balls.empty() && scene.cloths[0].material.structural > 100;
+  };
+  std::uint64_t seed = 1;
+  while (!fails(random_scene(seed, 4)) || random_scene(seed, 4).balls.size() < 3) ++seed;
+  const SimulationDescription small = shrink(random_scene(seed, 4), fails);
+  EXPECT_TRUE(fails(small));
+  EXPECT_EQ(small.balls.size(), 1u);
+  EXPECT_EQ(small.effects.size(), 0u);
+  EXPECT_EQ(small.cloths[0].pins.size(), 0u);
+  EXPECT_EQ(small.cloths[0].max_level, kMinLevel);
+  EXPECT_EQ(small.cloths[0].material, Material{});
+}
+
+class Regressions : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(Regressions, StayRepaired) {
+  const scene::Result read = scene::load(GetParam().string());
+  ASSERT_TRUE(std::holds_alternative<scene::Scene>(read));
+  EXPECT_EQ(check(std::get<scene::Scene>(read).simulation), Complaint{});
+}
+
+std::vector<std::filesystem::path> regression_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(WEFT_STABILITY_REGRESSIONS)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Regressions, ::testing::ValuesIn(regression_files()), [](const auto& each) {
+  std::string name = each.param.stem().string();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Regressions);
+
+}  // namespace
+}  // namespace weft::stability

@@ -1,0 +1,172 @@
+#include "runner.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "cloth/diagnostics.h"
+#include "cloth/integrators/symplectic_euler.h"
+#include "criteria.h"
+
+namespace weft::stability {
+namespace {
+
+constexpr double kRestSeconds = 0.5;  ///< at the end, watched for jitter
+constexpr double kJitter = 1e-5;      ///< of the size
+constexpr double kSettled = 0.01;     ///< of the speed of a fall through the size
+
+/// s, of the calling thread.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// One case being run.
+class Run {
+ public:
+  Run(const Case& hard_case, const Setup& setup, bool nightly)
+      : case_(hard_case), setup_(setup), nightly_(nightly), expect_(hard_case.expect(setup)) {}
+
+  Result result() {
+    if (case_.watch) watch_ = case_.watch(setup_);
+    for (std::size_t i = 0; i < case_.phases.size() && finite_; ++i) run_phase(i);
+    if (finite_) look_at_the_end();
+    if (steps_ > 0) result_.milliseconds = 1e3 * seconds_ / static_cast<double>(steps_);
+    if (!result_.complaints.empty()) {
+      result_.verdict = expected_to_fail() ? Verdict::limit : Verdict::fail;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Symplectic Euler's substeps are bounded, too.
+  bool expected_to_fail() const {
+    return setup_.method == Method::explicit_fixed ||
+           (setup_.method == Method::symplectic_euler && (case_.beyond_explicit || at_most_substeps_));
+  }
+
+  void run_phase(std::size_t index) {
+    const Phase& phase = case_.phases[index];
+    const bool last = index + 1 == case_.phases.size();
+    auto next = std::make_unique<Simulation<float>>(phase.scene(setup_));
+    if (simulation_) {
+      next->cloths()[0].particles() = simulation_->cloths()[0].particles();
+    } else if (case_.prepare) {
+      case_.prepare(*next);
+    }
+    simulation_ = std::move(next);
+    bound_ = energy_bound(*simulation_, setup_, expect_.input);
+    if (watch_ && index == 0) complain_once(watch_(*simulation_, 0));
+    const double seconds =
+        last && nightly_ && case_.nightly_seconds > 0 ? case_.nightly_seconds : phase.seconds;
+    const auto steps = std::lround(seconds * setup_.hz);
+    const auto rest = static_cast<long>(kRestSeconds * setup_.hz);
+    for (long step = 0; step < steps && finite_; ++step) {
+      const double before = processor_time();
+      if (case_.drive) case_.drive(*simulation_, time_);
+      simulation_->step();
+      seconds_ += processor_time() - before;
+      ++steps_;
+      time_ = static_cast<double>(steps_) / setup_.hz;
+      judge(static_cast<double>(step + 1) / setup_.hz, last);
+      if (last && expect_.rests && step >= steps - rest) jitter_.add(positions(*simulation_));
+    }
+  }
+
+  /// After a step, `time` since the phase's start.
+  void judge(double time, bool last_phase) {
+    finite_ = simulation_->healthy();
+    at_most_substeps_ = at_most_substeps_ || simulation_->last_advance(0).substeps == kMaxSubsteps;
+    if (!finite_) return complain("not finite", time_);
+    const Reading now = read(*simulation_, setup_.method != Method::xpbd);
+    const double rise = now.energy - bound_.start;
+    result_.energy_rise = std::max(result_.energy_rise, rise / bound_.allowed);
+    if (!(rise <= bound_.allowed)) {
+      complain("energy " + number(rise) + " J above the start's; allowed " + number(bound_.allowed), time_);
+      constexpr double kHopeless = 1e6;
+      finite_ = rise < kHopeless * bound_.allowed;
+    }
+    if (last_phase && time >= expect_.stretch_from) {
+      result_.stretch = std::max(result_.stretch, now.stretch);
+      if (now.stretch > expect_.stretch) {
+        complain("stretch " + number(now.stretch) + "; at most " + number(expect_.stretch), time_);
+      }
+    }
+    if (time_ >= expect_.penetration_from) {
+      result_.penetration = std::max(result_.penetration, now.penetration);
+      if (now.penetration > expect_.penetration) {
+        complain("penetration " + number(now.penetration) + " m; at most " + number(expect_.penetration),
+                 time_);
+      }
+      if (expect_.top_speed && now.speed > *expect_.top_speed) {
+        complain("speed " + number(now.speed) + " m/s; at most " + number(*expect_.top_speed), time_);
+      }
+    }
+    if (watch_) complain_once(watch_(*simulation_, time_));
+  }
+
+  void look_at_the_end() {
+    const double size = simulation_->description().cloths[0].size.maxCoeff();
+    if (expect_.rests) {
+      const Cloth<float>& cloth = simulation_->cloths()[0];
+      const double speed = std::sqrt(2 * kinetic_energy(cloth.particles()) / cloth.total_mass());
+      const double settled = kSettled * std::sqrt(2 * simulation_->gravity().norm() * size);
+      if (speed > settled)
+        complain("unsettled: " + number(speed) + " m/s; at most " + number(settled), time_);
+      if (jitter_.largest() > kJitter * size) {
+        complain("jitter of " + number(jitter_.largest() / size) + " of the size; at most " + number(kJitter),
+                 time_);
+      }
+    }
+    if (case_.ending) complain_once(case_.ending(*simulation_, setup_));
+  }
+
+  void complain_once(const Complaint& complaint) {
+    if (complaint) complain(*complaint, time_);
+  }
+  /// Keeps the first complaint of each kind, which its first word tells.
+  void complain(const std::string& text, double time) {
+    const std::string kind = text.substr(0, text.find(' '));
+    for (const std::string& earlier : result_.complaints) {
+      if (earlier.substr(0, earlier.find(' ')) == kind) return;
+    }
+    result_.complaints.push_back(text + " (at " + number(time) + " s)");
+  }
+
+  const Case& case_;
+  Setup setup_;
+  bool nightly_;
+  Expectation expect_;
+  std::unique_ptr<Simulation<float>> simulation_;
+  Watch watch_;
+  EnergyBound bound_;
+  Jitter jitter_;
+  bool at_most_substeps_ = false;
+  Result result_;
+  double time_ = 0, seconds_ = 0;
+  long steps_ = 0;
+  bool finite_ = true;
+};
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "fail" : "limit";
+}
+
+Result run(const Case& hard_case, const Setup& setup, bool nightly) {
+  return Run(hard_case, setup, nightly).result();
+}
+
+}  // namespace weft::stability

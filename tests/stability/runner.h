@@ -1,0 +1,25 @@
+#pragma once
+/// Runs one case with one method, level and step rate, and judges it.
+#include "case.h"
+
+namespace weft::stability {
+
+enum class Verdict {
+  pass,
+  fail,
+  limit,  ///< an explicit method beyond the steps it has: expected, recorded
+};
+const char* name_of(Verdict verdict);
+
+struct Result {
+  Verdict verdict = Verdict::pass;
+  std::vector<std::string> complaints;  ///< the first of each kind
+  double stretch = 0;                   ///< largest from the stated time on
+  double energy_rise = 0;               ///< largest energy above the start's, as a share of what is allowed
+  double penetration = 0;               ///< m, deepest from the stated time on
+  double milliseconds = 0;              ///< a frame: processor time of this thread, mean
+};
+
+Result run(const Case& hard_case, const Setup& setup, bool nightly);
+
+}  // namespace weft::stability

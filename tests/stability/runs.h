@@ -1,0 +1,27 @@
+#pragma once
+/// Which runs there are: every case with every method, level and step rate it claims, and CI's part of them.
+#include <memory>
+#include <ostream>
+
+#include "case.h"
+
+namespace weft::stability {
+
+struct HardRun {
+  std::shared_ptr<const Case> hard_case;
+  Setup setup;
+};
+/// "S1a_bdf2_L4_60Hz"
+std::string name_of(const HardRun& run);
+/// For GoogleTest's messages.
+inline void PrintTo(const HardRun& run, std::ostream* out) {
+  *out << name_of(run) << ": " << run.hard_case->what;
+}
+
+/// All there are: explicit methods at 60 Hz, the others at 60, 30 and 15 Hz, at all of the case's levels.
+std::vector<HardRun> all_runs();
+/// CI's: level 4 (or the case's own lowest) in full; of levels 5 and 6 the default integrator and XPBD at 60
+/// Hz, but for the cases in which they take long.
+std::vector<HardRun> ci_runs();
+
+}  // namespace weft::stability

@@ -1,0 +1,111 @@
+#include "scene_json.h"
+
+namespace weft::stability {
+namespace {
+
+using nlohmann::json;
+
+json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+json json_of(const ClothDescription& cloth) {
+  const Material& material = cloth.material;
+  const Quaternion& turn = cloth.orientation;
+  json made = {
+      {"name", cloth.name},
+      {"size", {cloth.size.x(), cloth.size.y()}},
+      {"base_cells", {cloth.base_cells.cols, cloth.base_cells.rows}},
+      {"velocity", json_of(cloth.velocity)},
+      {"perturbation", cloth.perturbation},
+      {"levels", {{"min", cloth.min_level}, {"max", cloth.max_level}, {"initial", cloth.initial_level}}},
+      {"material",
+       {{"density", material.density},
+        {"structural", material.structural},
+        {"shear", material.shear},
+        {"bending", material.bending},
+        {"damping", material.damping}}},
+      {"discretization", cloth.discretization == Discretization::paper ? "paper" : "continuum"},
+      {"pins", json::array()}};
+  if (cloth.nodes.empty()) {
+    made["position"] = json_of(cloth.position);
+    made["orientation"] = {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}};
+  } else {
+    for (const Vec3& node : cloth.nodes) made["nodes"].push_back(json_of(node));
+  }
+  for (const PinRegion& pin : cloth.pins) {
+    made["pins"].push_back({{"u", {pin.u_min, pin.u_max}}, {"v", {pin.v_min, pin.v_max}}});
+  }
+  return made;
+}
+
+json json_of(const BallDescription& ball) {
+  json made = {{"type", "ball"}, {"radius", ball.radius}, {"friction", ball.friction}, {"mass", ball.mass}};
+  made["motion"] = ball.motion == BallDescription::Motion::dynamic ? "dynamic" : "kinematic";
+  for (const Waypoint& point : ball.path) {
+    made["path"].push_back({{"time", point.time}, {"position", json_of(point.position)}});
+  }
+  if (ball.path.empty()) {
+    made["position"] = json_of(ball.position);
+    made["velocity"] = json_of(ball.velocity);
+  }
+  return made;
+}
+
+struct EffectWriter {
+  json operator()(const GravityEffect& e) const { return {{"acceleration", json_of(e.acceleration)}}; }
+  json operator()(const DampingEffect&) const { return json::object(); }
+  json operator()(const PaperWindEffect& e) const {
+    return {{"factor", e.factor}, {"along_normal", e.along_normal}};
+  }
+  json operator()(const AerodynamicsEffect& e) const {
+    return {{"air_density", e.air_density}, {"drag", e.drag}};
+  }
+};
+
+struct IntegratorWriter {
+  json operator()(const SymplecticEulerDescription& i) const {
+    json made = {{"safety", i.safety}};
+    if (i.substeps > 0) made["substeps"] = i.substeps;
+    return made;
+  }
+  json operator()(const ImplicitParameters& i) const {
+    return {{"substeps", i.substeps},
+            {"tolerance", i.tolerance},
+            {"newton_iterations", i.newton_iterations},
+            {"linear_iterations", i.linear_iterations}};
+  }
+  json operator()(const XpbdDescription& i) const { return {{"substeps", i.substeps}}; }
+};
+
+/// A variant's value with its name as "type".
+template <class Writer, class Variant>
+json typed(const Variant& variant) {
+  json made = std::visit(Writer{}, variant);
+  made["type"] = std::visit([](const auto& value) { return value.kName; }, variant);
+  return made;
+}
+
+bool reads_wind(const EffectDescription& effect) {
+  return std::holds_alternative<PaperWindEffect>(effect) ||
+         std::holds_alternative<AerodynamicsEffect>(effect);
+}
+
+}  // namespace
+
+json scene_json(const SimulationDescription& scene) {
+  json made = {{"cloths", json::array()},
+               {"effects", json::array()},
+               {"integrator", typed<IntegratorWriter>(scene.integrator)},
+               {"time_step", scene.time_step},
+               {"seed", scene.seed}};
+  for (const ClothDescription& cloth : scene.cloths) made["cloths"].push_back(json_of(cloth));
+  for (const BallDescription& ball : scene.balls) made["colliders"].push_back(json_of(ball));
+  for (const EffectDescription& effect : scene.effects) {
+    made["effects"].push_back(typed<EffectWriter>(effect));
+    if (reads_wind(effect)) {
+      made["wind"] = {{"direction", json_of(scene.wind.direction)}, {"speed", scene.wind.speed}};
+    }
+  }
+  return made;
+}
+
+}  // namespace weft::stability

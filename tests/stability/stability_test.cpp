@@ -1,0 +1,30 @@
+// The hard cases (case.h), one test a run. Nightly/* are all of them, Stability/* CI's part.
+#include <gtest/gtest.h>
+
+#include "runs.h"
+#include "table.h"
+
+namespace weft::stability {
+namespace {
+
+class HardCase : public ::testing::TestWithParam<HardRun> {};
+
+TEST_P(HardCase, Survives) {
+  const auto& [hard_case, setup] = GetParam();
+  const bool nightly = std::string_view(::testing::UnitTest::GetInstance()->current_test_suite()->name())
+                           .starts_with("Nightly");
+  const Result result = run(*hard_case, setup, nightly);
+  keep(row_of(*hard_case, setup, result), std::filesystem::path(WEFT_STABILITY_REPORT) / "rows");
+  EXPECT_NE(result.verdict, Verdict::fail);
+  if (result.verdict != Verdict::fail) return;
+  for (const std::string& complaint : result.complaints)
+    ADD_FAILURE() << hard_case->what << ": " << complaint;
+}
+
+std::string test_name(const ::testing::TestParamInfo<HardRun>& info) { return name_of(info.param); }
+
+INSTANTIATE_TEST_SUITE_P(Stability, HardCase, ::testing::ValuesIn(ci_runs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Nightly, HardCase, ::testing::ValuesIn(all_runs()), test_name);
+
+}  // namespace
+}  // namespace weft::stability
