@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cinttypes>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -13,6 +14,8 @@
 #include "cli/stats_writer.h"
 #include "cli/threads.h"
 #include "cloth/simulation.h"
+#include "cloth/state_hash.h"
+#include "host/arithmetic.h"
 #include "scene/scene.h"
 
 namespace weft::cli {
@@ -29,6 +32,7 @@ struct RunOptions {
   std::optional<int> level;
   std::vector<std::string> outputs;
   std::string stats;
+  bool hash = false;
   Threads threads;
 };
 
@@ -113,6 +117,7 @@ int run(const RunOptions& options) {
   }
   const auto& scene = std::get<scene::Scene>(result);
   const ThreadLimit limit = options.threads.limit();
+  host::flush_subnormals();  // as where scenes are served: the bits must be the same
   Simulation<float> simulation(scene.simulation);
   choose_levels(options, scene, simulation);
   Outputs outputs(options, scene.simulation);
@@ -143,6 +148,7 @@ int run(const RunOptions& options) {
                 simulation.cloths()[i].description().name.c_str(), report.level, grid.cols, grid.rows,
                 report.substeps, 100 * report.strain.max);
   }
+  if (options.hash) std::printf("%016" PRIx64 "\n", state_hash(simulation));
   const auto& cloths = simulation.cloths();
   const bool frozen =
       std::any_of(cloths.begin(), cloths.end(), [](const Cloth<float>& cloth) { return cloth.frozen(); });
@@ -179,6 +185,8 @@ void add_run(CLI::App& app, int& exit_code) {
           "Meshes, by extension: .obj (one file a frame), .pc2, .csv, .glb; may be given several times")
       ->allow_extra_args(false);
   command->add_option("--stats", options->stats, "Figures for each frame, as CSV");
+  command->add_flag("--hash", options->hash,
+                    "A hash of all bits of the last state, alone on the last line of standard output");
   options->threads.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

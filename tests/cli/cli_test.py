@@ -1,5 +1,6 @@
 """The executable itself: exit codes, what run writes, check, and that the same run gives the same bytes."""
 import csv
+import json
 import os
 import pathlib
 import pty
@@ -12,6 +13,7 @@ import unittest
 
 WEFT = os.environ["WEFT_BINARY"]
 BAD_SCENES = pathlib.Path(os.environ["WEFT_BAD_SCENES"])
+HASHES = pathlib.Path(__file__).with_name("hashes.json")
 LIMIT_S = 120
 
 PRESETS = ["flag", "curtain", "tablecloth", "swing", "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
@@ -95,6 +97,22 @@ class Outputs(CliTest):
         for cloth in "abc":
             self.assertEqual((self.folder / f"on_1-{cloth}.pc2").read_bytes(),
                              (self.folder / f"on_3-{cloth}.pc2").read_bytes())
+
+    def test_hashes_of_the_last_state_are_those_of_the_table(self):
+        # hashes.json: who changes the arithmetic on purpose writes them anew (tests/cli/write_hashes).
+        table = json.loads(HASHES.read_text())
+        for scene, expected in table["scenes"].items():
+            for threads in (1, 2, 4, 8):
+                with self.subTest(scene=scene, threads=threads):
+                    result = self.run_ok(scene, *table["options"], "--threads", threads, "--hash")
+                    self.assertEqual(result.stdout.splitlines()[-1], expected)
+
+    def test_hash_tells_states_apart(self):
+        hashes = [self.run_ok("flag", "--frames", frames, "--level", 4, "--hash", "--set", f"/wind/speed={speed}")
+                  .stdout.splitlines()[-1] for frames, speed in ((3, 8), (4, 8), (3, 8.000001))]
+        self.assertEqual(len(set(hashes)), 3)
+        for text in hashes:
+            self.assertRegex(text, "^[0-9a-f]{16}$")
 
     def test_no_progress_bar_without_a_terminal(self):
         self.assertEqual(self.run_ok("flag", "--frames", 5, "--level", 4).stderr, "")

@@ -1,0 +1,58 @@
+#include "cloth/state_hash.h"
+
+#include <cstddef>
+
+namespace weft {
+namespace {
+
+class Hash {
+ public:
+  /// `value`'s own bytes: a type without padding.
+  template <class T>
+  void add(const T& value) {
+    add(&value, sizeof value);
+  }
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * kPrime;
+  }
+  template <class Real>
+  void add(const VectorField<Real>& field) {
+    const Grid& grid = field.grid();
+    for (const Field<Real>* component : {&field.x, &field.y, &field.z}) {
+      for (int r = 0; r < grid.rows; ++r) {  // padding is nobody's business
+        add(component->row(r), static_cast<std::size_t>(grid.cols) * sizeof(Real));
+      }
+    }
+  }
+  void add(const Vec3& vector) { add(vector.data(), 3 * sizeof(double)); }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  static constexpr std::uint64_t kPrime = 0x100000001b3;
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+}  // namespace
+
+template <class Real>
+std::uint64_t state_hash(const Simulation<Real>& simulation) {
+  Hash hash;
+  hash.add(simulation.step_count());
+  for (const Cloth<Real>& cloth : simulation.cloths()) {
+    hash.add(cloth.level());
+    hash.add(cloth.particles().position);
+    hash.add(cloth.particles().velocity);
+  }
+  for (const Ball& ball : simulation.colliders().balls()) {
+    hash.add(ball.id);
+    hash.add(ball.position);
+    hash.add(ball.velocity);
+  }
+  return hash.value();
+}
+
+template std::uint64_t state_hash(const Simulation<float>&);
+template std::uint64_t state_hash(const Simulation<double>&);
+
+}  // namespace weft
