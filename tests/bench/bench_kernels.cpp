@@ -53,10 +53,10 @@ void xpbd_step(benchmark::State& state) {
   const auto effects = make_effects<Real>({GravityEffect{}});
   const ClothDescription cloth;
   const Wind wind;
-  std::vector<Ball> balls;
+  const std::vector<Solid> none;
   const auto xpbd = make_integrator<Real>(XpbdDescription{kSubsteps});
   for (auto _ : state) {
-    xpbd->advance(sheet, {&springs, &effects, {&cloth, &wind, 0.0}}, nullptr, balls, 0.0, 1e-4);
+    xpbd->advance(sheet, {&springs, &effects, {&cloth, &wind, 0.0}}, nullptr, none, 0.0, 1e-4);
     benchmark::DoNotOptimize(sheet.position.x.row(0));
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * kSubsteps * sheet.grid().nodes());
