@@ -216,8 +216,10 @@ class ExitCodes(CliTest):
 
     def test_a_cloth_frozen_at_the_end_is_3(self):
         # Falls ever faster, by 1000 m/s a step, until that is beyond what is taken for motion (1e6 m/s): it is
-        # stopped, stands still for a step, and falls anew.
-        falling = ("--level", 4, "--set", "/time_step=0.1", "--set", "/cloths/0/pins=[]", "--set", "/wind=null", "--set",
+        # stopped, stands still for a step, and falls anew. It is 10 km wide, as single precision must tell its nodes
+        # apart where it is by then.
+        falling = ("--level", 4, "--set", "/cloths/0/size=[10000, 10000]", "--set", "/time_step=0.1", "--set",
+                   "/cloths/0/pins=[]", "--set", "/wind=null", "--set",
                    '/effects=[{"type": "gravity", "acceleration": [0, -10000, 0]}]')
         result = weft("run", "flag", "--frames", 1100, *falling)
         self.assertEqual(result.returncode, 0)

@@ -192,6 +192,26 @@ TEST(SleepTest, ADynamicBallOnItKeepsItAwake) {
   EXPECT_EQ(simulation.colliders().balls()[0].position, Vec3(0, 0, 0.2));
 }
 
+TEST(SleepTest, APinThatHasYetToMoveKeepsItAwake) {
+  // Gravity-free and at rest for the first two seconds, which are twice as long as it takes to fall asleep.
+  SimulationDescription scene = floating_scene();
+  scene.cloths[0].pins[0].path = {{2, {0, 0, 0}}, {2.5, {0, 0, 0.2}}};
+  Simulation<float> simulation(scene);
+  run(simulation, 120);
+  EXPECT_FALSE(asleep(simulation));
+  run(simulation, 30);
+  EXPECT_NEAR(simulation.cloths()[0].particles().position_at(0, 0).z(), 0.2, 1e-6);
+}
+
+TEST(SleepTest, AFloorUnderItDoesNotKeepItAwake) {
+  SimulationDescription scene = floating_scene();
+  scene.cloths[0].position = {0, 1.005, 0};  // hangs 5 mm above: within the margin
+  scene.obstacles = {{PlaneDescription{}, {0, 0, 0}, 0.5}};
+  auto simulation = sleeping<float>(scene);
+  run(simulation, 10);
+  EXPECT_TRUE(asleep(simulation));
+}
+
 TEST(SleepTest, OnlyTheClothNearTheBallWakes) {
   SimulationDescription scene = floating_scene();
   scene.cloths.push_back(scene.cloths[0]);
