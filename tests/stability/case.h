@@ -44,7 +44,7 @@ struct Expectation {
   double input = 0;                 ///< J, work that wind and moving bodies may do on the cloth
   double stretch = 0.05;            ///< largest extension of a structural spring, relative
   double stretch_from = 1;          ///< s, of the last phase: from then on it is held to it
-  double penetration = 1e-5;        ///< m, deepest that a node may be in a ball at the end of a step
+  double penetration = 1e-5;        ///< m, deepest that a node may be in a solid at the end of a step
   double penetration_from = 0;      ///< s, of the case: from then on
   bool rests = true;                ///< at its end it has settled and nothing jitters (criteria.h)
   std::optional<double> top_speed;  ///< m/s, of any node, from penetration_from on
@@ -76,7 +76,7 @@ struct Case {
 // --- What many cases are made from ---
 
 inline constexpr double kSize = 2.0;  ///< m, of the square sheet most cases have
-inline constexpr PinRegion kTopEdge{0, 1, 0, 0}, kTopLeft{0, 0, 0, 0}, kTopRight{1, 1, 0, 0},
+inline const PinRegion kTopEdge{0, 1, 0, 0}, kTopLeft{0, 0, 0, 0}, kTopRight{1, 1, 0, 0},
     kBottomLeft{0, 0, 1, 1}, kBottomRight{1, 1, 1, 1};
 
 /// The sheet that is not hard: 2 m square, default material, at the setup's level, under gravity and a drag

@@ -1,4 +1,4 @@
-// Hopeless shapes and shocks: S6, S12, S18, S19.
+// Hopeless shapes and shocks: S6, S7, S12, S18, S19.
 #include <random>
 
 #include "endings.h"
@@ -111,6 +111,30 @@ Case shot_node() {
   return made;
 }
 
+Case yanked() {
+  constexpr double kStart = 0.5, kPull = 0.2, kSpeed = 50, kFar = kSpeed * kPull;
+  const auto scene = [=](const Setup& setup) {
+    SimulationDescription made = ordinary_sheet(setup, {kTopLeft, kTopRight});
+    made.cloths[0].pins[0].path = {
+        {kStart, {0, 0, 0}}, {kStart + kPull, {0, 0, kFar}}, {kStart + 2 * kPull, {0, 0, 0}}};
+    return made;
+  };
+  Case made{
+      "S7", "a pinned corner moved at 50 m/s for 0.2 s and back: strain under 5 % 1 s after", {{6, scene}}};
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    const double strain = kFar / kSize;
+    Expectation expect;
+    // No more than pulling all of it evenly would take, and its speed.
+    expect.input = hung.cloths[0].material.structural * strain * strain / 2 * kSize * kSize +
+                   mass_of(hung.cloths[0]) * kSpeed * kSpeed / 2;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / 2);
+    expect.stretch_from = kStart + 2 * kPull + 1;
+    return expect;
+  };
+  return made;
+}
+
 Case coincident() {
   const auto scene = [](const Setup& setup) {
     const int middle = 1 << (setup.level - 1);
@@ -146,6 +170,7 @@ std::vector<Case> shape_cases() {
       crumpled("S6d", "every second row mirrored, inverted cells, to 0.1 mm: unfolds", almost(mirrored)),
       degenerate("S6e", "all nodes on one line, exactly: no division by zero", exactly(on_line)),
       degenerate("S6f", "all nodes on one point, exactly: no division by zero", exactly(on_point)),
+      yanked(),
       ribbon(),
       shot_node(),
       coincident(),

@@ -23,15 +23,14 @@ void read_springs(const Cloth<float>& cloth, Reading& reading) {
   }
 }
 
-void read_nodes(const Cloth<float>& cloth, const std::vector<Ball>& balls, Reading& reading) {
+void read_nodes(const Cloth<float>& cloth, const std::vector<Solid>& solids, Reading& reading) {
   const Particles<float>& state = cloth.particles();
   for (int r = 0; r < state.grid().rows; ++r) {
     for (int c = 0; c < state.grid().cols; ++c) {
       reading.speed = std::max(reading.speed, state.velocity_at(r, c).norm());
       if (state.inverse_mass.at(r, c) == 0) continue;  // pinned nodes stay where they are
-      for (const Ball& each : balls) {
-        const double depth = each.radius - (state.position_at(r, c) - each.position).norm();
-        reading.penetration = std::max(reading.penetration, depth);
+      for (const Solid& each : solids) {
+        reading.penetration = std::max(reading.penetration, depth(each, state.position_at(r, c)));
       }
     }
   }
@@ -49,7 +48,7 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
     reading.energy += kinetic_energy(state) + gravitational_energy(state, simulation.gravity());
     if (springs_count) reading.energy += cloth.springs().energy(state.position);
     read_springs(cloth, reading);
-    read_nodes(cloth, balls, reading);
+    read_nodes(cloth, simulation.colliders().solids(), reading);
   }
   for (const Ball& each : balls) {
     if (!falls(each)) continue;
@@ -82,6 +81,8 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
   bound.allowed = rounding + input + moving * (is_explicit ? kModifiedEnergy - 1 : kRoom);
   return bound;
 }
+
+double depth(const Solid& solid, const Vec3& point) { return -solid.placed(1).surface(point).distance; }
 
 std::vector<Vec3> positions(const Simulation<float>& simulation) {
   std::vector<Vec3> all;

@@ -10,7 +10,7 @@
 ///    XPBD leaves constraints unsolved, which is no energy that ever comes back: its springs are not counted;
 ///  - from a stated time on no structural spring is stretched beyond a stated limit. Compression is no harm:
 ///    a spring mesh shortens where cloth has folds finer than the mesh;
-///  - no node is inside a ball deeper than stated;
+///  - no node is inside a ball or an obstacle deeper than stated;
 ///  - at the end it has settled, the root mean square of the speeds under 1 % of a fall through its size, and
 ///    nothing jitters: from step to step no node's move changes by 1e-5 of the size. A slow sway is no
 ///    jitter.
@@ -49,6 +49,9 @@ class Jitter {
   std::vector<Vec3> last_, before_last_;
   double largest_ = 0;
 };
+
+/// How deep a point is inside a solid at the step's end, m; negative outside.
+double depth(const Solid& solid, const Vec3& point);
 
 /// Where the nodes are, row by row.
 std::vector<Vec3> positions(const Simulation<float>& simulation);

@@ -42,6 +42,9 @@ class Run {
     if (case_.watch) watch_ = case_.watch(setup_);
     for (std::size_t i = 0; i < case_.phases.size() && finite_; ++i) run_phase(i);
     if (finite_) look_at_the_end();
+    if (setup_.method == Method::explicit_fixed && result_.guard_events > 0) {
+      complain("guard stepped in " + std::to_string(result_.guard_events) + " times", time_);
+    }
     if (steps_ > 0) result_.milliseconds = 1e3 * seconds_ / static_cast<double>(steps_);
     if (!result_.complaints.empty()) {
       result_.verdict = expected_to_fail() ? Verdict::limit : Verdict::fail;
@@ -87,6 +90,7 @@ class Run {
   /// After a step, `time` since the phase's start.
   void judge(double time, bool last_phase) {
     finite_ = simulation_->healthy();
+    result_.guard_events += static_cast<int>(simulation_->guard_events().size());
     at_most_substeps_ = at_most_substeps_ || simulation_->last_advance(0).substeps == kMaxSubsteps;
     if (!finite_) return complain("not finite", time_);
     const Reading now = read(*simulation_, setup_.method != Method::xpbd);

@@ -17,6 +17,7 @@ struct Result {
   double stretch = 0;                   ///< largest from the stated time on
   double energy_rise = 0;               ///< largest energy above the start's, as a share of what is allowed
   double penetration = 0;               ///< m, deepest from the stated time on
+  int guard_events = 0;                 ///< how often the step guard stepped in
   double milliseconds = 0;              ///< a frame: processor time of this thread, mean
 };
 

@@ -32,7 +32,11 @@ json json_of(const ClothDescription& cloth) {
     for (const Vec3& node : cloth.nodes) made["nodes"].push_back(json_of(node));
   }
   for (const PinRegion& pin : cloth.pins) {
-    made["pins"].push_back({{"u", {pin.u_min, pin.u_max}}, {"v", {pin.v_min, pin.v_max}}});
+    json region = {{"u", {pin.u_min, pin.u_max}}, {"v", {pin.v_min, pin.v_max}}};
+    for (const Waypoint& point : pin.path) {
+      region["path"].push_back({{"time", point.time}, {"offset", json_of(point.position)}});
+    }
+    made["pins"].push_back(std::move(region));
   }
   return made;
 }
@@ -49,6 +53,15 @@ json json_of(const BallDescription& ball) {
   }
   return made;
 }
+
+struct ShapeWriter {
+  json operator()(const PlaneDescription& s) const { return {{"normal", json_of(s.normal)}}; }
+  json operator()(const BoxDescription& s) const {
+    const Quaternion& turn = s.orientation;
+    return {{"size", json_of(s.size)},
+            {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
+  }
+};
 
 struct EffectWriter {
   json operator()(const GravityEffect& e) const { return {{"acceleration", json_of(e.acceleration)}}; }
@@ -96,9 +109,16 @@ json scene_json(const SimulationDescription& scene) {
                {"effects", json::array()},
                {"integrator", typed<IntegratorWriter>(scene.integrator)},
                {"time_step", scene.time_step},
+               {"sleep_speed", scene.sleep_speed},
                {"seed", scene.seed}};
   for (const ClothDescription& cloth : scene.cloths) made["cloths"].push_back(json_of(cloth));
   for (const BallDescription& ball : scene.balls) made["colliders"].push_back(json_of(ball));
+  for (const ObstacleDescription& each : scene.obstacles) {
+    json obstacle = typed<ShapeWriter>(each.shape);
+    obstacle["position"] = json_of(each.position);
+    obstacle["friction"] = each.friction;
+    made["colliders"].push_back(std::move(obstacle));
+  }
   for (const EffectDescription& effect : scene.effects) {
     made["effects"].push_back(typed<EffectWriter>(effect));
     if (reads_wind(effect)) {

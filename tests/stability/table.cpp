@@ -13,7 +13,7 @@ namespace weft::stability {
 namespace {
 
 constexpr const char* kHeader =
-    "case,method,level,hz,verdict,stretch,energy,penetration_m,ms_per_frame,why\n";
+    "case,method,level,hz,verdict,stretch,energy,penetration_m,guard_events,ms_per_frame,why\n";
 
 std::string short_number(double value) {
   char text[32];
@@ -24,15 +24,15 @@ std::string short_number(double value) {
 std::string line(const Row& row) {
   std::ostringstream out;
   out << row.name << ',' << row.method << ',' << row.level << ',' << row.hz << ',' << row.verdict << ','
-      << row.stretch << ',' << row.energy_rise << ',' << row.penetration << ',' << row.milliseconds << ",\""
-      << row.why << "\"\n";
+      << row.stretch << ',' << row.energy_rise << ',' << row.penetration << ',' << row.guard_events << ','
+      << row.milliseconds << ",\"" << row.why << "\"\n";
   return out.str();
 }
 
 /// The row that line() wrote.
 Row read_line(const std::string& text) {
   std::istringstream in(text);
-  std::array<std::string, 9> fields;
+  std::array<std::string, 10> fields;
   for (std::string& field : fields) std::getline(in, field, ',');
   std::string why;
   std::getline(in, why);
@@ -43,7 +43,8 @@ Row read_line(const std::string& text) {
   row.stretch = number(5);
   row.energy_rise = number(6);
   row.penetration = number(7);
-  row.milliseconds = number(8);
+  row.guard_events = static_cast<int>(number(8));
+  row.milliseconds = number(9);
   return row;
 }
 
@@ -60,6 +61,7 @@ Row row_of(const Case& hard_case, const Setup& setup, const Result& result) {
   row.stretch = result.stretch;
   row.energy_rise = result.energy_rise;
   row.penetration = result.penetration;
+  row.guard_events = result.guard_events;
   row.milliseconds = result.milliseconds;
   return row;
 }
@@ -93,15 +95,16 @@ std::string markdown(const std::vector<Row>& rows) {
   std::ostringstream out;
   out << "Stretch: largest of a structural spring, from the time on that the case states. Energy: largest "
          "rise above "
-         "the start's, as a share of what the case allows.\n\n"
-         "| case | method | level | Hz | verdict | stretch | energy | penetration, m | ms a frame | why |\n"
-         "|---|---|---|---|---|---|---|---|---|---|\n";
+         "the start's, as a share of what the case allows. Guard: how often the step guard stepped in.\n\n"
+         "| case | method | level | Hz | verdict | stretch | energy | penetration, m | guard | ms a frame | "
+         "why |\n"
+         "|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Row& row : rows) {
     out << "| " << row.name << " | " << row.method << " | " << row.level << " | " << row.hz << " | "
         << row.verdict << " | " << short_number(row.stretch) << " | " << short_number(row.energy_rise)
-        << " | " << short_number(row.penetration) << " | " << short_number(row.milliseconds) << " | "
-        << row.why << " |\n";
+        << " | " << short_number(row.penetration) << " | " << row.guard_events << " | "
+        << short_number(row.milliseconds) << " | " << row.why << " |\n";
     ++counts[row.method][row.verdict];
   }
   out << "\n| method | pass | fail | limit |\n|---|---|---|---|\n";
