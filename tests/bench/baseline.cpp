@@ -149,7 +149,8 @@ void Baseline<Real>::integrate(Real h) {
 template <class Real>
 void Baseline<Real>::collide(double fraction) {
   for (const Ball& ball : colliders_.balls()) {
-    const Vector<Real> centre = vector<Real>(ball.at(fraction)), velocity = vector<Real>(ball.velocity);
+    const Vector<Real> centre = vector<Real>(ball.start + fraction * (ball.position - ball.start)),
+                       velocity = vector<Real>(ball.velocity);
     const Real radius = static_cast<Real>(ball.radius);
     for (Particle<Real>& particle : particles_) {
       if (particle.pinned) continue;
