@@ -40,7 +40,8 @@ bool implicit(const IntegratorDescription& integrator) {
 
 TYPED_TEST(StepGuardOf, ExtremesAreThoseOfAPlainLoop) {
   using Real = TypeParam;
-  for (const auto& [rows, cols] : {std::pair{2, 2}, {3, 17}, {9, 9}, {17, 33}, {33, 20}}) {
+  for (const auto& size : {std::pair{2, 2}, {3, 17}, {9, 9}, {17, 33}, {33, 20}}) {
+    const int rows = size.first, cols = size.second;
     Particles<Real> sheet(Grid::with_nodes(rows, cols));
     test::randomise(sheet.position, -2, 2, 1);
     test::randomise(sheet.velocity, -5, 5, 2);
@@ -177,7 +178,8 @@ TYPED_TEST(StepGuardOf, ABadPositionIsTakenBack) {
   using Real = TypeParam;
   for (const IntegratorDescription& integrator : default_integrators()) {
     // Inside, on a border, a pinned corner, the last node of all.
-    for (const auto& [r, c] : {std::pair{7, 9}, {0, 3}, {0, 0}, {16, 16}}) {
+    for (const auto& node : {std::pair{7, 9}, {0, 3}, {0, 0}, {16, 16}}) {
+      const int r = node.first, c = node.second;
       for (const Real bad : {kNaN<Real>, std::numeric_limits<Real>::infinity()}) {
         SCOPED_TRACE(::testing::Message()
                      << test::name_of(integrator) << " " << r << ", " << c << ": " << bad);
