@@ -112,6 +112,7 @@ bool Cloth<Real>::apply_pending_level() {
       split(particles_, particles);
     } else {
       merge(particles_, particles);
+      if (description_.discretization == Discretization::continuum) merge_momentum(particles_, particles);
     }
     enter_level(next, std::move(particles));
   }

@@ -1,5 +1,6 @@
 #include "cloth/refine.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace weft {
@@ -72,6 +73,30 @@ void merge(const Particles<Real>& fine, Particles<Real>& coarse) {
 }
 
 template <class Real>
+void merge_momentum(const Particles<Real>& fine, Particles<Real>& coarse) {
+  require_nested(coarse.grid(), fine.grid());
+  const Grid& grid = fine.grid();
+  for (int r = 0; r < coarse.grid().rows; ++r) {
+    for (int c = 0; c < coarse.grid().cols; ++c) {
+      Vec3 momentum(0, 0, 0);
+      double mass = 0;
+      for (int i = std::max(0, 2 * r - 1); i <= std::min(grid.rows - 1, 2 * r + 1); ++i) {
+        for (int j = std::max(0, 2 * c - 1); j <= std::min(grid.cols - 1, 2 * c + 1); ++j) {
+          const double share =
+              (i == 2 * r ? 1.0 : 0.5) * (j == 2 * c ? 1.0 : 0.5) * double(fine.mass.at(i, j));
+          momentum += share * fine.velocity_at(i, j);
+          mass += share;
+        }
+      }
+      const Vec3 velocity = momentum / mass;
+      coarse.velocity.x.at(r, c) = static_cast<Real>(velocity.x());
+      coarse.velocity.y.at(r, c) = static_cast<Real>(velocity.y());
+      coarse.velocity.z.at(r, c) = static_cast<Real>(velocity.z());
+    }
+  }
+}
+
+template <class Real>
 void mass_distribution(double total_mass, Discretization discretization, Field<Real>& mass) {
   const Grid& grid = mass.grid();
   const bool by_area = discretization == Discretization::continuum;
@@ -91,6 +116,8 @@ template void split<float>(const Particles<float>&, Particles<float>&);
 template void split<double>(const Particles<double>&, Particles<double>&);
 template void merge<float>(const Particles<float>&, Particles<float>&);
 template void merge<double>(const Particles<double>&, Particles<double>&);
+template void merge_momentum<float>(const Particles<float>&, Particles<float>&);
+template void merge_momentum<double>(const Particles<double>&, Particles<double>&);
 template void mass_distribution<float>(double, Discretization, Field<float>&);
 template void mass_distribution<double>(double, Discretization, Field<double>&);
 

@@ -16,6 +16,13 @@ void split(const Particles<Real>& coarse, Particles<Real>& fine);
 template <class Real>
 void merge(const Particles<Real>& fine, Particles<Real>& coarse);
 
+/// The momentum of fine nodes for the coarse velocities: full weighting by mass, each fine node's shared
+/// among the coarse nodes that it lies between (1 a shared node's own, 1/2 and 1/4 a new one's). With masses
+/// by area momentum is kept and kinetic energy only falls; taken over node by node (merge) it may rise, and a
+/// cloth whose level changes back and forth is pumped. After a split this smooths: merge(split(v)) != v.
+template <class Real>
+void merge_momentum(const Particles<Real>& fine, Particles<Real>& coarse);
+
 /// Fills `mass` for a sheet of `total_mass` kg. Paper: total/n each (Eq. 9). Continuum: by area, 1 inside,
 /// 1/2 on an edge, 1/4 in a corner, so the sum is the total to the last bit at every level of one cloth.
 template <class Real>

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "open_failures.h"
 #include "random_scenes.h"
 #include "scene/scene.h"
 #include "scene_json.h"
@@ -16,7 +17,9 @@ void check_seeds(std::uint64_t first, std::uint64_t count, int max_level) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const SimulationDescription drawn = random_scene(seed, max_level);
     const Complaint complaint = check(drawn);
-    if (!complaint) continue;
+    const bool open = is_open("seed_" + std::to_string(seed));
+    EXPECT_FALSE(open && !complaint) << "seed " << seed << " passes now: take it off open_failures.txt";
+    if (!complaint || open) continue;
     const SimulationDescription small =
         shrink(drawn, [](const SimulationDescription& scene) { return check(scene).has_value(); });
     const std::filesystem::path folder = WEFT_STABILITY_REPORT;

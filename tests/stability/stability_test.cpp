@@ -1,6 +1,7 @@
 // The hard cases (case.h), one test a run. Nightly/* are all of them, Stability/* CI's part.
 #include <gtest/gtest.h>
 
+#include "open_failures.h"
 #include "runs.h"
 #include "table.h"
 
@@ -15,10 +16,15 @@ TEST_P(HardCase, Survives) {
                            .starts_with("Nightly");
   const Result result = run(*hard_case, setup, nightly);
   keep(row_of(*hard_case, setup, result), std::filesystem::path(WEFT_STABILITY_REPORT) / "rows");
-  EXPECT_NE(result.verdict, Verdict::fail);
-  if (result.verdict != Verdict::fail) return;
-  for (const std::string& complaint : result.complaints)
-    ADD_FAILURE() << hard_case->what << ": " << complaint;
+  const bool open = !nightly && is_open(name_of(GetParam()));
+  if (result.verdict != Verdict::fail) {
+    EXPECT_FALSE(open) << "passes now: take it off open_failures.txt";
+    return;
+  }
+  std::string complaints;
+  for (const std::string& complaint : result.complaints) complaints += "\n" + complaint;
+  if (open) GTEST_SKIP() << "known to fail: " << hard_case->what << complaints;
+  ADD_FAILURE() << hard_case->what << complaints;
 }
 
 std::string test_name(const ::testing::TestParamInfo<HardRun>& info) { return name_of(info.param); }

@@ -10,6 +10,8 @@ namespace {
 /// Projections onto one solid after another before a node between overlapping solids is led straight out of
 /// all of them.
 constexpr int kProjections = 4;
+/// Cosine of the angle between the normals of solids that face each other: 120 degrees or more.
+constexpr double kFacing = -0.5;
 /// A direction shorter than this part of a unit vector is none.
 constexpr double kNoDirection = 1e-6;
 
@@ -18,8 +20,9 @@ constexpr double kNoDirection = 1e-6;
 template <class Real>
 bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
                                 std::vector<Touch>& touches) {
+  const std::size_t touches_before = touches.size();
   bool met = stop_at_first(solids, impulses, touches);
-  Vec3 normals(0, 0, 0);  // of all solids it was found in
+  std::vector<Found> found;  // one entry a solid
   for (int round = 0; round < kProjections; ++round) {
     bool moved = false;
     for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -33,14 +36,61 @@ bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vec
       }
       put_outside(moving.shape, position_, surface.normal, -surface.distance);
       if (round == 0) touches.push_back(touch(*moving.solid));
-      normals += surface.normal;
+      if (solids.size() > 1) note(found, i, surface.normal);
       moved = true;
     }
     met = met || moved;
     if (!moved || solids.size() == 1) return met;  // outside the only solid there is
   }
-  lead_out(solids, normals);
+  if (const std::optional<std::size_t> still = pinching(found, solids)) {
+    touches.resize(touches_before);
+    touches.push_back(touch(*solids[*still].solid));
+    hold_at(solids[*still], impulses[*still]);
+  } else {
+    lead_out(solids, found);
+  }
   return true;
+}
+
+template <class Real>
+void NodeContact<Real>::note(std::vector<Found>& found, std::size_t solid, const Vec3& normal) {
+  const auto same =
+      std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.solid == solid; });
+  if (same == found.end()) {
+    found.push_back({solid, normal});
+  } else {
+    same->normal = normal;
+  }
+}
+
+/// Of solids that face each other with the node between them the one that moves least; none if there are no
+/// such.
+template <class Real>
+std::optional<std::size_t> NodeContact<Real>::pinching(const std::vector<Found>& found,
+                                                       const std::vector<MovingSolid>& solids) {
+  std::optional<std::size_t> still;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t j = i + 1; j < found.size(); ++j) {
+      if (found[i].normal.dot(found[j].normal) > kFacing) continue;
+      for (const std::size_t each : {found[i].solid, found[j].solid}) {
+        if (!still || solids[each].move.squaredNorm() < solids[*still].move.squaredNorm()) still = each;
+      }
+    }
+  }
+  return still;
+}
+
+/// Two solids cannot both be kept out of where they overlap: the node stays on this one's surface and goes
+/// with it, however deep it is in the others.
+template <class Real>
+void NodeContact<Real>::hold_at(const MovingSolid& still, Vec3& impulse) {
+  const Surface surface = still.shape.surface(position_);
+  put_outside(still.shape, position_, surface.normal, -surface.distance);
+  const Vec3 velocity = particles_.velocity_at(row_, col_);
+  if (still.solid->yields) {
+    impulse += double(particles_.mass.at(row_, col_)) * (velocity - still.solid->velocity);
+  }
+  set_velocity(still.solid->velocity);
 }
 
 /// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
@@ -88,9 +138,7 @@ Vec3 NodeContact<Real>::lose_velocity(const Solid& solid, const Vec3& normal, Ve
   const Vec3 held =
       speed > 0 ? Vec3(std::min(1.0, -solid.friction * inward / speed) * sliding) : Vec3(0, 0, 0);
   const Vec3 lost = stopped + held, kept = velocity - lost;
-  particles_.velocity.x.at(row_, col_) = static_cast<Real>(kept.x());
-  particles_.velocity.y.at(row_, col_) = static_cast<Real>(kept.y());
-  particles_.velocity.z.at(row_, col_) = static_cast<Real>(kept.z());
+  set_velocity(kept);
   if (solid.yields) impulse += double(particles_.mass.at(row_, col_)) * lost;
   return held;
 }
@@ -98,8 +146,9 @@ Vec3 NodeContact<Real>::lose_velocity(const Solid& solid, const Vec3& normal, Ve
 /// Overlapping solids hand a node to each other. All are convex: along one ray none is entered twice, if the
 /// ray leads away from half-spaces.
 template <class Real>
-void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const Vec3& sum_of_normals) {
-  Vec3 direction = sum_of_normals;
+void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found) {
+  Vec3 direction(0, 0, 0);
+  for (const Found& each : found) direction += each.normal;
   for (const MovingSolid& moving : solids) {
     if (!std::holds_alternative<HalfSpace>(moving.shape.shape)) continue;
     const Surface surface = moving.shape.surface(position_);
@@ -138,6 +187,13 @@ void NodeContact<Real>::set_position(const Vec3& target) {
   particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
   particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
   position_ = particles_.position_at(row_, col_);
+}
+
+template <class Real>
+void NodeContact<Real>::set_velocity(const Vec3& velocity) {
+  particles_.velocity.x.at(row_, col_) = static_cast<Real>(velocity.x());
+  particles_.velocity.y.at(row_, col_) = static_cast<Real>(velocity.y());
+  particles_.velocity.z.at(row_, col_) = static_cast<Real>(velocity.z());
 }
 
 template class NodeContact<float>;

@@ -26,18 +26,29 @@ class NodeContact {
         move_(move),
         seconds_(seconds) {}
 
-  /// Brings the node out of all solids, and back from beyond those it passed through; `impulses`, by solid,
-  /// get what it gives them, `touches` what it met. False if it met none.
+  /// Brings the node out of all solids (pinched between two it stays with the one that moves least), and back
+  /// from beyond those it passed through; `impulses`, by solid, get what it gives them, `touches` what it
+  /// met. False if it met none.
   bool resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
                std::vector<Touch>& touches);
 
  private:
   bool stop_at_first(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
                      std::vector<Touch>& touches);
+  /// A solid the node was found in.
+  struct Found {
+    std::size_t solid;
+    Vec3 normal;
+  };
+  static void note(std::vector<Found>& found, std::size_t solid, const Vec3& normal);
+  static std::optional<std::size_t> pinching(const std::vector<Found>& found,
+                                             const std::vector<MovingSolid>& solids);
+  void hold_at(const MovingSolid& still, Vec3& impulse);
   Vec3 lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
-  void lead_out(const std::vector<MovingSolid>& solids, const Vec3& sum_of_normals);
+  void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);
   void set_position(const Vec3& target);
+  void set_velocity(const Vec3& velocity);
   Touch touch(const Solid& solid) const { return {particles_.grid().index(row_, col_), solid.id}; }
 
   Particles<Real>& particles_;

@@ -240,7 +240,7 @@ TEST(ClothLevels, RequestsAreClampedToTheClothsLimits) {
   EXPECT_EQ(cloth.level(), 4);
 }
 
-TEST(ClothLevels, SplitThenMergeGivesTheSameStateAndMasses) {
+TEST(ClothLevels, SplitThenMergeGivesTheSamePlacesAndMasses) {
   for (Discretization d : {Discretization::paper, Discretization::continuum}) {
     for (const BaseCells base : {BaseCells{1, 1}, BaseCells{2, 1}}) {
       ClothDescription description = at_level(4);
@@ -256,7 +256,12 @@ TEST(ClothLevels, SplitThenMergeGivesTheSameStateAndMasses) {
       EXPECT_EQ(cloth.particles().grid(), base.at(6));
       cloth.request_level(4);
       ASSERT_TRUE(cloth.apply_pending_level());
-      EXPECT_TRUE(test::same_state(before, cloth.particles()));
+      EXPECT_TRUE(test::same_bits(before.position, cloth.particles().position));
+      if (d == Discretization::paper) {
+        EXPECT_TRUE(test::same_state(before, cloth.particles()));
+      } else {  // velocities by momentum: they are smoothed
+        EXPECT_LE(kinetic_energy(cloth.particles()), kinetic_energy(before));
+      }
       each_node(before.grid(), [&](int r, int c) {
         EXPECT_EQ(before.mass.at(r, c), cloth.particles().mass.at(r, c));
         EXPECT_EQ(before.inverse_mass.at(r, c), cloth.particles().inverse_mass.at(r, c));

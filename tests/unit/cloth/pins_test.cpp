@@ -45,7 +45,8 @@ TEST_P(MovingPins, AreWhereTheirPathSaysAndTheClothFollows) {
   }
   // The left edge hangs from the corner: half a second after it set off the sheet's left half is on its way.
   EXPECT_GT(get(simulation.cloths()[0].particles().position, 8, 0).z(), 0.05);
-  // The corners are sqrt(4.25) m apart, 3.1 % more than the sheet is wide; its weight hangs from them as well.
+  // The corners are sqrt(4.25) m apart, 3.1 % more than the sheet is wide; its weight hangs from them as
+  // well.
   EXPECT_LT(simulation.report(0).strain.max, 0.1);
 }
 

@@ -292,6 +292,30 @@ TEST(MergeMomentum, WithoutDetailNothingChanges) {
   }
 }
 
+TEST(MergeMomentum, ByFullWeightingIsKeptAndKineticEnergyNeverRises) {
+  // Each fine node's momentum is shared out with weights that sum to 1, and the coarse masses are the fine
+  // ones shared out likewise: the sum is the same but for 561 roundings. Each coarse velocity is a mean,
+  // whose square is at most the mean of the squares.
+  Particles<double> fine = random_state<double>(Grid::with_nodes(17, 33), 25);
+  test::share_mass(fine, 0.4, Discretization::continuum);
+  Particles<double> coarse(Grid::with_nodes(9, 17));
+  merge_momentum(fine, coarse);
+  test::share_mass(coarse, 0.4, Discretization::continuum);
+  EXPECT_GT(linear_momentum(fine).norm(), 1e-3);
+  EXPECT_LT((linear_momentum(coarse) - linear_momentum(fine)).norm(), 1e-14);
+  EXPECT_LT(kinetic_energy(coarse), kinetic_energy(fine));
+}
+
+TEST(MergeMomentum, ByFullWeightingOfAUniformMotionIsExact) {
+  Particles<double> fine = test::flat_sheet<double>(9, 17, {2, 2});
+  test::share_mass(fine, 0.4, Discretization::continuum);
+  each_node(fine.grid(), [&](int r, int c) { set(fine.velocity, r, c, {1, -2, 0.5}); });
+  Particles<double> coarse(Grid::with_nodes(5, 9));
+  merge_momentum(fine, coarse);
+  each_node(coarse.grid(),
+            [&](int r, int c) { EXPECT_LT((coarse.velocity_at(r, c) - Vec3(1, -2, 0.5)).norm(), 1e-15); });
+}
+
 TEST(MergeEnergy, IsBoundedByTheDetailDropped) {
   // With s = split(merge(v)) and detail d = v - s: KE(after) - KE(before) = [KE(after) - KE(s)] - sum m (s.d
   // + d^2/2). The bracket is the split's loss. A smooth swing plus 1 % of random detail: the change stays

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "busy_scene.h"
 #include "cloth/diagnostics.h"
 
