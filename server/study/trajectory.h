@@ -35,7 +35,7 @@ struct Trajectory {
                                      ///< programs hardly disturb; nothing is kept or compared meanwhile
   int substeps = 0;                  ///< of the last step; the most of all cloths
   bool sound = true;                 ///< false if the step guard had to step in, which ends the run
-  bool complete = false;  ///< all frames asked for are here
+  bool complete = false;             ///< all frames asked for are here
 
   /// Median of step_seconds, ms; 0 without steps.
   double milliseconds_per_frame() const;

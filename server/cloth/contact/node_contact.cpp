@@ -27,14 +27,14 @@ bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vec
     bool moved = false;
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const MovingSolid& moving = solids[i];
+      if (!moving.shape.contains(position_)) continue;
       Surface surface = moving.shape.surface(position_);
-      if (!(surface.distance < 0)) continue;
       const Vec3 held = lose_velocity(*moving.solid, surface.normal, impulses[i]);
       if (!held.isZero(0)) {
         set_position(position_ - seconds_ * held);
         surface = moving.shape.surface(position_);
       }
-      put_outside(moving.shape, position_, surface.normal, -surface.distance);
+      put_on(moving.shape, surface);
       if (round == 0) touches.push_back(touch(*moving.solid));
       if (solids.size() > 1) note(found, i, surface.normal);
       moved = true;
@@ -85,7 +85,7 @@ std::optional<std::size_t> NodeContact<Real>::pinching(const std::vector<Found>&
 template <class Real>
 void NodeContact<Real>::hold_at(const MovingSolid& still, Vec3& impulse) {
   const Surface surface = still.shape.surface(position_);
-  put_outside(still.shape, position_, surface.normal, -surface.distance);
+  put_on(still.shape, surface);
   const Vec3 velocity = particles_.velocity_at(row_, col_);
   if (still.solid->yields) {
     impulse += double(particles_.mass.at(row_, col_)) * (velocity - still.solid->velocity);
@@ -135,8 +135,7 @@ Vec3 NodeContact<Real>::lose_velocity(const Solid& solid, const Vec3& normal, Ve
   if (!(inward < 0)) return Vec3::Zero();
   const Vec3 stopped = inward * normal, sliding = relative - stopped;
   const double speed = solid.friction > 0 ? sliding.norm() : 0.0;
-  const Vec3 held =
-      speed > 0 ? Vec3(std::min(1.0, -solid.friction * inward / speed) * sliding) : Vec3(0, 0, 0);
+  Vec3 held = speed > 0 ? Vec3(std::min(1.0, -solid.friction * inward / speed) * sliding) : Vec3(0, 0, 0);
   const Vec3 lost = stopped + held, kept = velocity - lost;
   set_velocity(kept);
   if (solid.yields) impulse += double(particles_.mass.at(row_, col_)) * lost;
@@ -169,11 +168,21 @@ void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const s
   }
 }
 
+/// To the point of the surface next to it: of a ball as the paper has it, from the centre.
+template <class Real>
+void NodeContact<Real>::put_on(const PlacedShape& shape, const Surface& surface) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.shape)) {
+    put_outside(shape, shape.centre, surface.normal, sphere->radius);
+  } else {
+    put_outside(shape, position_, surface.normal, -surface.distance);
+  }
+}
+
 /// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up outside.
 template <class Real>
 void NodeContact<Real>::put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction,
                                     double distance) {
-  double margin = (from.cwiseAbs().sum() + (from - shape.centre).norm() + distance) *
+  double margin = (from.cwiseAbs().sum() + std::max(distance, (from - shape.centre).norm()) + distance) *
                   double(std::numeric_limits<Real>::epsilon()) / 2;
   do {
     set_position(from + (distance + margin) * direction);

@@ -45,6 +45,7 @@ class NodeContact {
                                              const std::vector<MovingSolid>& solids);
   void hold_at(const MovingSolid& still, Vec3& impulse);
   Vec3 lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse);
+  void put_on(const PlacedShape& shape, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
   void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);
   void set_position(const Vec3& target);

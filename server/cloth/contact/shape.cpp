@@ -95,6 +95,12 @@ Surface PlacedShape::surface(const Vec3& point) const {
   return found;
 }
 
+bool PlacedShape::contains(const Vec3& point) const {
+  const auto* sphere = std::get_if<Sphere>(&shape);
+  return sphere != nullptr ? (point - centre).squaredNorm() < sphere->radius * sphere->radius
+                           : surface(point).distance < 0;
+}
+
 std::optional<Hit> PlacedShape::first_hit(const Vec3& from, const Vec3& to) const {
   const Vec3 local = rotation.transpose() * (from - centre), way = rotation.transpose() * (to - from);
   std::optional<Hit> hit = std::visit([&](const auto& s) { return hit_of(s, local, way); }, shape);

@@ -38,7 +38,7 @@ struct PlacedShape {
 
   /// At a sphere's very centre the normal points upwards; deep in a box towards the nearest face.
   Surface surface(const Vec3& point) const;
-  bool contains(const Vec3& point) const { return surface(point).distance < 0; }
+  bool contains(const Vec3& point) const;
   /// Where the straight way from `from`, outside, to `to` first enters; none if it never does.
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
   /// Where the ray from `origin`, inside, leaves: the distance along the unit `direction`.
