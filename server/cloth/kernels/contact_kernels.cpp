@@ -1,5 +1,8 @@
 #include "cloth/kernels/contact_kernels.h"
 
+#include <bit>
+#include <type_traits>
+
 #include "cloth/multiversion.h"
 
 namespace weft::kernels {
@@ -109,14 +112,16 @@ template <class Real>
   const Real* __restrict bx = b.x;
   const Real* __restrict by = b.y;
   const Real* __restrict bz = b.z;
-  Real largest = 0;
+  // Not below 0: ordered as their bits, whose maximum the compiler vectorises (state_kernels.cpp).
+  using Bits = std::conditional_t<sizeof(Real) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
+  Bits largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Real x = own * ax[i] + factor * bx[i], y = own * ay[i] + factor * by[i],
                z = own * az[i] + factor * bz[i];
-    const Real square = x * x + y * y + z * z;
+    const Bits square = std::bit_cast<Bits>(x * x + y * y + z * z);
     largest = square > largest ? square : largest;
   }
-  return static_cast<double>(largest);
+  return static_cast<double>(std::bit_cast<Real>(largest));
 }
 
 }  // namespace
