@@ -38,6 +38,7 @@ std::vector<Competitor> competitors() {
   std::vector<Competitor> all{weft("default", kStiff, Bdf2{}),
                               weft("1 Newton and 1 linear iteration", kStiff,
                                    with<Bdf2>({.newton_iterations = 1, .linear_iterations = 1})),
+                              weft("tolerance 0.2", kStiff, with<Bdf2>({.tolerance = 0.2})),
                               weft("1 Newton iteration, tolerance 0.2", kStiff,
                                    with<Bdf2>({.tolerance = 0.2, .newton_iterations = 1})),
                               weft("1 Newton iteration, tolerance 0.05", kStiff,

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene with something of everything, for the tests of Simulation.
+/// Scenes for the tests of Simulation: a hung cloth, and one with something of everything.
 #include "cloth/simulation.h"
 #include "fixtures.h"
 
@@ -13,8 +13,8 @@ inline BallDescription ball_at(const Vec3& position, double radius, const Vec3& 
   return ball;
 }
 
-/// A cloth hung by two corners in the wind, level 4, with a ball on its way through it.
-inline SimulationDescription busy_scene() {
+/// A cloth at level 4, hung by two corners under gravity with damping.
+inline SimulationDescription hung_scene() {
   SimulationDescription scene;
   ClothDescription cloth;
   cloth.min_level = 3;
@@ -22,8 +22,15 @@ inline SimulationDescription busy_scene() {
   cloth.pins = {{0, 0, 0, 0}, {1, 1, 0, 0}};
   cloth.perturbation = 0.001;
   scene.cloths = {cloth};
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  return scene;
+}
+
+/// The same in the wind, with a ball on its way through it.
+inline SimulationDescription busy_scene() {
+  SimulationDescription scene = hung_scene();
   scene.balls = {ball_at({0, 0, 1}, 0.3, {0, 0, -4})};
-  scene.effects = {GravityEffect{}, DampingEffect{}, AerodynamicsEffect{}};
+  scene.effects.push_back(AerodynamicsEffect{});
   scene.wind = {{0, 0, -1}, 2.0};
   return scene;
 }

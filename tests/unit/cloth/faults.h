@@ -43,17 +43,4 @@ inline const char* name_of(const IntegratorDescription& integrator) {
   return std::visit([](const auto& each) { return each.kName; }, integrator);
 }
 
-/// A cloth at level 4, hung by two corners under gravity with damping.
-inline SimulationDescription hung_scene() {
-  SimulationDescription scene;
-  ClothDescription cloth;
-  cloth.min_level = 3;
-  cloth.initial_level = 4;
-  cloth.pins = {{0, 0, 0, 0}, {1, 1, 0, 0}};
-  cloth.perturbation = 0.001;
-  scene.cloths = {cloth};
-  scene.effects = {GravityEffect{}, DampingEffect{}};
-  return scene;
-}
-
 }  // namespace weft::test
