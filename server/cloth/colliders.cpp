@@ -7,6 +7,9 @@
 namespace weft {
 namespace {
 
+/// Of a ball that is put somewhere.
+constexpr int kStepsToClear = 3;
+
 Solid solid_of(const ObstacleDescription& obstacle, std::size_t index) {
   Solid solid;
   solid.id = kFirstObstacle + static_cast<ColliderId>(index);
@@ -35,6 +38,7 @@ Solid Ball::solid() const {
           .shape = Sphere{radius},
           .friction = friction,
           .yields = motion == BallDescription::Motion::dynamic,
+          .steps_to_clear = steps_to_clear,
           .start = start,
           .position = position,
           .velocity = velocity};
@@ -59,6 +63,7 @@ BallId Colliders::add(const BallDescription& description) {
   ball.radius = description.radius;
   ball.mass = description.mass;
   ball.friction = description.friction;
+  ball.steps_to_clear = kStepsToClear;
   ball.path = description.path;
   ball.position = description.path.empty() ? description.position : description.path.front().position;
   ball.start = ball.position;
@@ -137,6 +142,7 @@ void Colliders::end_step() {
   for (Ball& ball : balls_) {
     if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += ball.impulse / ball.mass;
     ball.impulse.setZero();
+    ball.steps_to_clear = std::max(0, ball.steps_to_clear - 1);
   }
   stop_bad_balls();
 }

@@ -20,6 +20,7 @@ struct Ball {
   Vec3 position{0, 0, 0};  ///< at the end of the step, m
   Vec3 start{0, 0, 0};     ///< at its start, m
   Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s: what the cloth feels
+  int steps_to_clear = 0;  ///< Solid::steps_to_clear
   Vec3 impulse{0, 0, 0};   ///< given by the cloths during the step, N s; taken up when the step ends
   std::vector<Waypoint> path;
 

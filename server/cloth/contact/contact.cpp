@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cloth/contact/node_contact.h"
 #include "cloth/kernels/contact_kernels.h"
+#include "cloth/kernels/node_kernels.h"
 
 namespace weft {
 namespace {
@@ -35,17 +37,15 @@ struct Way {
   }
 };
 
-/// Which of a block's rows have a node in the solid, or, if it is fast, perhaps on a way through.
+kernels::Sphere sphere_of(const PlacedShape& placed, double radius) {
+  return {placed.centre.x(), placed.centre.y(), placed.centre.z(), radius * radius};
+}
+
+/// Which of a block's rows have a node in the shape.
 template <class Real>
-std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSolid& moving,
-                          const Way<Real>& way, std::size_t first) {
-  const PlacedShape& placed = moving.shape;
+std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedShape& placed) {
   if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
-    const kernels::Sphere ball{placed.centre.x(), placed.centre.y(), placed.centre.z(),
-                               sphere->radius * sphere->radius};
-    if (!moving.fast) return kernels::rows_inside(block, ball);
-    return kernels::rows_swept(block, {way.other + first, way.own, way.factor},
-                               {moving.move.x(), moving.move.y(), moving.move.z()}, ball);
+    return kernels::rows_inside(block, sphere_of(placed, sphere->radius));
   }
   const Eigen::Matrix3d& axes = placed.rotation;
   if (std::holds_alternative<HalfSpace>(placed.shape)) {
@@ -53,7 +53,6 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
     return kernels::rows_inside(
         block, kernels::Below{normal.x(), normal.y(), normal.z(), normal.dot(placed.centre)});
   }
-  if (moving.fast) return ~std::uint32_t{0};
   const Vec3 half = std::get<Box>(placed.shape).half;
   kernels::OrientedBox box{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -63,11 +62,69 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
   return kernels::rows_inside(block, box);
 }
 
+/// Which of a block's rows have a node in the solid, or, if it is fast, perhaps on a way through.
+template <class Real>
+std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSolid& moving,
+                          const Way<Real>& way, std::size_t first) {
+  const PlacedShape& placed = moving.shape;
+  if (!moving.fast || std::holds_alternative<HalfSpace>(placed.shape)) return rows_inside(block, placed);
+  const auto* sphere = std::get_if<Sphere>(&placed.shape);
+  if (sphere == nullptr) return ~std::uint32_t{0};
+  return kernels::rows_swept(block, {way.other + first, way.own, way.factor},
+                             {moving.move.x(), moving.move.y(), moving.move.z()},
+                             sphere_of(placed, sphere->radius));
+}
+
+/// The nodes that a tile answers for. A border node that two tiles share is looked at in the one below or to
+/// the right, whose box holds it as well.
+struct OwnNodes {
+  int rows, cols;
+
+  OwnNodes(const Tile& tile, const Grid& grid)
+      : rows((tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1) - tile.row_begin),
+        cols((tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin) {}
+};
+
 }  // namespace
 
 template <class Real>
+const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles,
+                                                const std::vector<Solid>& solids, const Substep& substep) {
+  const Grid& grid = particles.grid();
+  const double h = substep.seconds;
+  ahead_ = particles.position;
+  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.velocity),
+                      static_cast<Real>(h), grid.size());
+  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.acceleration),
+                      static_cast<Real>(h * h), grid.size());
+  const kernels::Components<const Real> ahead = kernels::components(std::as_const(ahead_));
+  for (const TileSolidPair& pair : broad_phase_.find_pairs(ahead_, solids, {substep.to, substep.to, 0})) {
+    const Tile& tile = broad_phase_.tiles()[static_cast<std::size_t>(pair.tile)];
+    const auto [rows, cols] = OwnNodes(tile, grid);
+    const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+    const PlacedShape placed = solid.placed(substep.to);
+    const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
+    const std::uint32_t struck = rows_inside<Real>({ahead + first, rows, grid.stride, cols}, placed);
+    for (int r = 0; r < rows; ++r) {
+      if ((struck >> r & 1U) == 0) continue;
+      for (int c = 0; c < cols; ++c) {
+        const int row = tile.row_begin + r, col = tile.col_begin + c;
+        if (particles.inverse_mass.at(row, col) == Real(0)) continue;
+        const std::size_t node = grid.index(row, col);
+        const Vec3 point(double(ahead.x[node]), double(ahead.y[node]), double(ahead.z[node]));
+        if (placed.contains(point)) touches_.push_back({node, solid.id});
+      }
+    }
+  }
+  std::sort(touches_.begin(), touches_.end());
+  touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
+  return touches_;
+}
+
+template <class Real>
 int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>& solids,
-                           const Substep& substep, const VectorField<Real>* start) {
+                           const Substep& substep, const VectorField<Real>* start,
+                           VectorField<Real>* rounded_off) {
   touches_.clear();
   const auto way = Way<Real>::of(particles, start, substep.seconds);
   const double longest = way.longest(particles);
@@ -78,7 +135,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>&
     const Vec3 move = solid.at(substep.to) - solid.at(substep.from);
     const bool fast = longest + move.norm() > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    moving.push_back({&solid, solid.placed(substep.to), move, fast});
+    moving.push_back({&solid, solid.placed(substep.to), move, fast, substep});
   }
   const std::vector<TileSolidPair>& pairs =
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});
@@ -90,10 +147,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>&
     while (end < pairs.size() && pairs[end].tile == pairs[begin].tile) ++end;
     const Tile& tile = broad_phase_.tiles()[static_cast<std::size_t>(pairs[begin].tile)];
     ++counters_.tiles_examined;
-    // A border node that two tiles share is looked at in the one below or to the right, whose box holds it as
-    // well.
-    const int rows = (tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1) - tile.row_begin;
-    const int cols = (tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin;
+    const auto [rows, cols] = OwnNodes(tile, grid);
     const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
     const kernels::NodeBlock<Real> block{position + first, rows, grid.stride, cols};
     std::uint32_t struck = 0;
@@ -107,7 +161,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>&
         const int row = tile.row_begin + r, col = tile.col_begin + c;
         if (particles.inverse_mass.at(row, col) == Real(0)) continue;
         const Vec3 move = way.move(particles.position_at(row, col), grid.index(row, col));
-        NodeContact<Real> node(particles, row, col, move, substep.seconds);
+        NodeContact<Real> node({particles, rounded_off}, row, col, move, substep.seconds);
         if (node.resolve(moving, impulses_, touches_)) ++in_contact;
       }
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <compare>
 #include <cstdint>
 
 #include "cloth/contact/broad_phase.h"
@@ -31,6 +32,8 @@ struct Substep {
 struct Touch {
   std::size_t node = 0;  ///< index into the grid's arrays
   ColliderId collider = 0;
+
+  friend auto operator<=>(const Touch&, const Touch&) = default;
 };
 
 /// The paper's section 2.4, second half: in the struck tiles a particle inside a ball, or another solid, is
@@ -49,17 +52,23 @@ class Contact {
 
   /// Forgets the impulses of the step before.
   void begin_step(const std::vector<Solid>& solids) { impulses_.assign(solids.size(), Vec3::Zero()); }
+  /// Adds to touches() the nodes that will be in a solid at the substep's end if they go on with the velocity
+  /// and the acceleration they have. For implicit steps, which want to know before.
+  const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                   const Substep& substep);
   /// Resolves the contacts at a substep's end. `start` holds the nodes' places at its start; without it they
   /// came there with the velocities that they have. Returns the number of nodes in contact in this call.
+  /// `rounded_off`, if the integrator keeps it, is what the positions' rounding leaves out, m.
   int resolve(Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
-              const VectorField<Real>* start = nullptr);
+              const VectorField<Real>* start = nullptr, VectorField<Real>* rounded_off = nullptr);
 
   /// What the cloth gave to each solid since the step began, N s; nothing to those that do not yield. They
   /// get it from Colliders::push: cloths that are advanced at the same time share them.
   const std::vector<Vec3>& impulses() const { return impulses_; }
   std::vector<Vec3>& impulses() { return impulses_; }
 
-  /// What the last resolve found in contact, ordered by tile, then node.
+  /// What the last resolve found in contact, ordered by tile, then node; after expect() by node, then
+  /// collider.
   const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
@@ -68,6 +77,7 @@ class Contact {
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
   std::vector<Touch> touches_;
+  VectorField<Real> ahead_;  ///< where the nodes will be if they go on
   std::vector<Vec3> impulses_;
 };
 

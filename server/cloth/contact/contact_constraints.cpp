@@ -46,14 +46,19 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Pa
   const double h = seconds_ = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
-  const auto key = [](const Touch& touch) { return std::pair(touch.node, touch.collider); };
-  const auto before = [&](const Constraint& c, const Touch& touch) { return key(c.touch) < key(touch); };
-  for (const Touch& touch : touches) {
+  const auto before = [](const Constraint& c, const Touch& touch) { return c.touch < touch; };
+  std::vector<Touch> all = touches;
+  for (const Constraint& c : last_) {
+    if (c.force > 0) all.push_back(c.touch);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (const Touch& touch : all) {
     const auto solid =
         std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.id == touch.collider; });
     if (solid == solids.end()) continue;
     const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
-    const double force = same != last_.end() && key(same->touch) == key(touch) ? same->force : 0.0;
+    const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
 
     const Vec3 move = solid->at(substep.to) - solid->at(substep.from);
     const Vec3 start = at(position, touch.node), guess = h * at(velocity, touch.node);
@@ -63,11 +68,12 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Pa
     if (surface.distance > standard_gravity().norm() * h * h) continue;
     const Vec3 slip = guess - move;
     const double sliding = (slip - slip.dot(normal) * normal).norm();
+    const double left = solid->depth_left(start, substep.from, substep.to);
     constraints_.push_back({touch, static_cast<std::size_t>(solid - solids.begin()), normal,
-                            normal.dot(guess) - surface.distance, move, solid->friction * force, sliding});
+                            normal.dot(guess) - surface.distance - left,
+                            solid->led_out(start, substep.from, substep.to), move, solid->friction * force,
+                            sliding});
   }
-  std::sort(constraints_.begin(), constraints_.end(),
-            [&](const Constraint& a, const Constraint& b) { return key(a.touch) < key(b.touch); });
 }
 
 template <class Real>
@@ -75,6 +81,7 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
                                       const Real* diagonal, double links_stiffness,
                                       kernels::Components<const Real> move) {
   for (Constraint& c : constraints_) {
+    if (c.released) continue;
     const std::size_t i = c.touch.node;
     c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
     const Vec3 moved = at(move, i), slip = c.solid_move - moved;
@@ -89,6 +96,19 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
 }
 
 template <class Real>
+double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move) {
+  double energy = 0;
+  for (Constraint& c : constraints_) {
+    const double beyond = c.normal.dot(at(move, c.touch.node)) - c.distance;
+    if (c.released || !(beyond > 0)) continue;
+    energy += c.stiffness * beyond * beyond / 2;
+    c.stiffness = c.friction_stiffness = 0;
+    c.released = true;
+  }
+  return energy;
+}
+
+template <class Real>
 void ContactConstraints<Real>::finish(kernels::Components<const Real> move, const std::vector<Solid>& solids,
                                       std::vector<Vec3>& impulses) {
   for (Constraint& c : constraints_) {
@@ -99,6 +119,13 @@ void ContactConstraints<Real>::finish(kernels::Components<const Real> move, cons
           seconds_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
     }
     c.force = std::max(0.0, c.force);
+  }
+}
+
+template <class Real>
+void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
+  for (const Constraint& c : constraints_) {
+    if (!c.released) add(velocity, c.touch.node, -c.led_out / seconds_ * c.normal);
   }
 }
 

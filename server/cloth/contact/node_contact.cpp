@@ -22,6 +22,7 @@ bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vec
                                 std::vector<Touch>& touches) {
   const std::size_t touches_before = touches.size();
   bool met = stop_at_first(solids, impulses, touches);
+  const Vec3 came = position_;
   std::vector<Found> found;  // one entry a solid
   for (int round = 0; round < kProjections; ++round) {
     bool moved = false;
@@ -34,17 +35,17 @@ bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vec
         set_position(position_ - seconds_ * held);
         surface = moving.shape.surface(position_);
       }
-      put_on(moving.shape, surface);
+      moved = put_on(moving, surface) || moved;
+      met = true;
       if (round == 0) touches.push_back(touch(*moving.solid));
       if (solids.size() > 1) note(found, i, surface.normal);
-      moved = true;
     }
-    met = met || moved;
     if (!moved || solids.size() == 1) return met;  // outside the only solid there is
   }
   if (const std::optional<std::size_t> still = pinching(found, solids)) {
     touches.resize(touches_before);
     touches.push_back(touch(*solids[*still].solid));
+    set_position(came);  // the solids have handed it to one another, sideways
     hold_at(solids[*still], impulses[*still]);
   } else {
     lead_out(solids, found);
@@ -85,7 +86,7 @@ std::optional<std::size_t> NodeContact<Real>::pinching(const std::vector<Found>&
 template <class Real>
 void NodeContact<Real>::hold_at(const MovingSolid& still, Vec3& impulse) {
   const Surface surface = still.shape.surface(position_);
-  put_on(still.shape, surface);
+  put_on(still, surface);
   const Vec3 velocity = particles_.velocity_at(row_, col_);
   if (still.solid->yields) {
     impulse += double(particles_.mass.at(row_, col_)) * (velocity - still.solid->velocity);
@@ -168,14 +169,22 @@ void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const s
   }
 }
 
-/// To the point of the surface next to it: of a ball as the paper has it, from the centre.
+/// To the point of the surface next to it, of a ball as the paper has it, from the centre. False if it was
+/// found deep inside and is on its way there.
 template <class Real>
-void NodeContact<Real>::put_on(const PlacedShape& shape, const Surface& surface) {
+bool NodeContact<Real>::put_on(const MovingSolid& moving, const Surface& surface) {
+  const PlacedShape& shape = moving.shape;
+  const double left = moving.solid->depth_left(start_, moving.substep.from, moving.substep.to);
+  if (left > 0) {
+    set_position(position_ + std::max(0.0, -surface.distance - left) * surface.normal);
+    return false;
+  }
   if (const auto* sphere = std::get_if<Sphere>(&shape.shape)) {
     put_outside(shape, shape.centre, surface.normal, sphere->radius);
   } else {
     put_outside(shape, position_, surface.normal, -surface.distance);
   }
+  return true;
 }
 
 /// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up outside.
@@ -196,6 +205,11 @@ void NodeContact<Real>::set_position(const Vec3& target) {
   particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
   particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
   position_ = particles_.position_at(row_, col_);
+  if (rounded_off_ == nullptr) return;
+  const Vec3 rest = target - position_;
+  rounded_off_->x.at(row_, col_) = static_cast<Real>(rest.x());
+  rounded_off_->y.at(row_, col_) = static_cast<Real>(rest.y());
+  rounded_off_->z.at(row_, col_) = static_cast<Real>(rest.z());
 }
 
 template <class Real>

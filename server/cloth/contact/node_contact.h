@@ -11,18 +11,25 @@ struct MovingSolid {
   PlacedShape shape;  ///< at the substep's end
   Vec3 move;          ///< of its centre in the substep, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
+  Substep substep;
 };
 
 /// One free node while its contacts in a substep are resolved.
 template <class Real>
 class NodeContact {
  public:
+  struct State {
+    Particles<Real>& particles;
+    VectorField<Real>* rounded_off;  ///< or none (Contact::resolve)
+  };
   /// `move` is the node's in the substep.
-  NodeContact(Particles<Real>& particles, int row, int col, const Vec3& move, double seconds)
-      : particles_(particles),
+  NodeContact(const State& state, int row, int col, const Vec3& move, double seconds)
+      : particles_(state.particles),
+        rounded_off_(state.rounded_off),
         row_(row),
         col_(col),
-        position_(particles.position_at(row, col)),
+        position_(state.particles.position_at(row, col)),
+        start_(position_ - move),
         move_(move),
         seconds_(seconds) {}
 
@@ -45,7 +52,7 @@ class NodeContact {
                                              const std::vector<MovingSolid>& solids);
   void hold_at(const MovingSolid& still, Vec3& impulse);
   Vec3 lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse);
-  void put_on(const PlacedShape& shape, const Surface& surface);
+  bool put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
   void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);
   void set_position(const Vec3& target);
@@ -53,8 +60,9 @@ class NodeContact {
   Touch touch(const Solid& solid) const { return {particles_.grid().index(row_, col_), solid.id}; }
 
   Particles<Real>& particles_;
+  VectorField<Real>* rounded_off_;
   int row_, col_;
-  Vec3 position_, move_;
+  Vec3 position_, start_, move_;
   double seconds_;
 };
 

@@ -11,6 +11,9 @@ namespace {
 constexpr int kSpareIterations = 3;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
+/// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
+/// tolerance it is then 0.2 mm/s on 2 m.
+constexpr double kSlow = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
 
@@ -27,6 +30,16 @@ void copy(kernels::Components<const Real> from, kernels::Components<Real> to, st
 template <class Real>
 void clear(kernels::Components<Real> field, std::size_t count) {
   for (Real* component : {field.x, field.y, field.z}) std::fill_n(component, count, Real(0));
+}
+
+/// The cloth's longer side, m.
+double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
+  double longest = 0;
+  for (const SpringFamily& family : springs) {
+    if (family.rows == 0) longest = std::max(longest, family.rest_length / family.cols * (grid.cols - 1));
+    if (family.cols == 0) longest = std::max(longest, family.rest_length / family.rows * (grid.rows - 1));
+  }
+  return longest;
 }
 
 template <class Real>
@@ -68,7 +81,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
     if (contact != nullptr) {
-      contacts.begin(contact->touches(), particles, solids, part);
+      contacts.begin(contact->expect(particles, solids, part), particles, solids, part);
     } else {
       contacts.clear();
     }
@@ -80,6 +93,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
       contacts.finish(state_->move, solids, contact->impulses());
+      contacts.keep_velocities(kernels::components(particles.velocity));
       report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
@@ -92,7 +106,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
 template <class Real>
 void Implicit<Real>::begin_step(const Particles<Real>& particles, const Springs<Real>& springs) {
   const Grid& grid = particles.grid();
-  if (!state_ || state_->system.grid() != grid) state_.emplace(grid, springs.has_bending());
+  if (!state_ || state_->system.grid() != grid) {
+    state_.emplace(grid, springs.has_bending());
+    state_->slow = kSlow * extent(springs.families(), grid);
+  }
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
@@ -107,14 +124,17 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, double h) {
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
   begin_formula(h);
-  // The error allowed, as a kinetic energy: of the speed the nodes have or, at rest, of what gravity gives
-  // them in a substep.
   const double speed_given = standard_gravity().norm() * h;
   double mass = 0;
   for (const Real node : particles.mass.values()) mass += static_cast<double>(node);
-  s.scale = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid()) +
-            mass * speed_given * speed_given;
-  s.allowed_error = parameters_.tolerance * parameters_.tolerance * s.scale;
+  const double kinetic = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid());
+  s.scale = kinetic + mass * speed_given * speed_given;
+  // The error allowed is a share of the speeds that the nodes have or are given, at most by gravity: on its
+  // way to rest a cloth is solved ever more finely, as errors that stayed the same would shake it for ever.
+  const double share = parameters_.tolerance * parameters_.tolerance;
+  s.target.share = share;
+  s.target.least = share * (kinetic + mass * s.slow * s.slow);
+  s.target.most = std::max(s.target.least, share * s.scale);
 }
 
 template <class Real>
@@ -194,7 +214,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
   for (int left = parameters_.newton_iterations; left > -kSpareIterations; --left) {
     assemble(particles, forces);
     const LinearSolveReport solved =
-        s.solver.solve(s.system, s.b, s.change, s.allowed_error, parameters_.linear_iterations);
+        s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
+    s.target = {.least = solved.target};
     const ChangeReport changed = (this->*change)(*forces.springs, solved.decrease);
     kernels::move_nodes<Real>(
         s.step,
@@ -206,7 +227,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
     const bool found = changed.taken || solved.decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
-    if (report.brought_in <= 0 && (left <= 1 || changed.error <= s.allowed_error)) break;
+    const bool pulled = s.contacts.release_pulling(s.move) > solved.target;
+    if (report.brought_in <= 0 && !pulled && (left <= 1 || changed.error <= solved.target)) break;
   }
   return report;
 }

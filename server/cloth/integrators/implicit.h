@@ -48,10 +48,11 @@ class Implicit final : public Integrator<Real> {
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     ContactConstraints<Real> contacts;
-    double scale = 0;          ///< energy that the substep's motion is of, J
-    double allowed_error = 0;  ///< of a solve or a linearisation, J
-    bool smooth = true;        ///< the substep was not taken back
-    bool sound = true;         ///< a move was found in every substep of the step
+    double scale = 0;    ///< energy that the substep's motion is of, J
+    double slow = 0;     ///< m/s, as slow as motion need be told from rest
+    SolveTarget target;  ///< of the substep's solves
+    bool smooth = true;  ///< the substep was not taken back
+    bool sound = true;   ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, const Springs<Real>& springs);

@@ -50,7 +50,8 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact == nullptr) continue;
-    report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
+    report.nodes_in_contact =
+        contact->resolve(particles, solids, Substep::of(s, report.substeps, dt), nullptr, &rounded_off_);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;
@@ -61,7 +62,7 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<Spr
                          double h) {
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) {
-    force_ = VectorField<Real>(grid);
+    force_ = rounded_off_ = VectorField<Real>(grid);
     layout_ = kernels::QuarterRows(grid);
     sheet_.assign(layout_.size(), Real(0));
     row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
@@ -92,9 +93,10 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
   forces.sum_effects(particles, force_);
   const kernels::XpbdNodes<Real> nodes{kernels::components(std::as_const(force_)),
                                        particles.inverse_mass.row(0), kernels::components(particles.velocity),
-                                       kernels::components(particles.position)};
+                                       kernels::components(particles.position),
+                                       kernels::components(rounded_off_)};
   kernels::predict(layout_, grid, nodes, static_cast<Real>(force_share * h), static_cast<Real>(h),
-                   sheet_.data());
+                   sheet_.data(), row_.data());
   for (const auto& family : springs_) kernels::project(layout_, family, sheet_.data());
   kernels::take_over(layout_, grid, sheet_.data(), static_cast<Real>(h), nodes, row_.data());
 }

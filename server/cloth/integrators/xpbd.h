@@ -23,6 +23,7 @@ class Xpbd final : public Integrator<Real> {
   const char* name() const override { return XpbdDescription::kName; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         const std::vector<Solid>& solids, double time, double dt) override;
+  void restart() override { force_ = {}; }
 
  private:
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
@@ -30,9 +31,9 @@ class Xpbd final : public Integrator<Real> {
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
 
   XpbdDescription description_;
-  VectorField<Real> force_;
+  VectorField<Real> force_, rounded_off_;
   kernels::QuarterRows layout_;
-  std::vector<Real, AlignedAllocator<Real>> sheet_;      ///< positions and inverse masses in that layout
+  std::vector<Real, AlignedAllocator<Real>> sheet_;      ///< the nodes in that layout
   std::vector<Real, AlignedAllocator<Real>> stiffness_;  ///< a row of lanes for each family
   std::vector<Real, AlignedAllocator<Real>> row_;        ///< one row in the particles' own order
   std::vector<kernels::XpbdSprings<Real>> springs_;

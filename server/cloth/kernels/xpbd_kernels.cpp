@@ -18,14 +18,18 @@ constexpr int round_up(int n, int to) { return (n + to - 1) / to * to; }
 template <class Real>
 [[gnu::always_inline]] inline void project_run(Real* a, Real* b, const Real* __restrict stiffness, Real share,
                                                Real rest_length, std::size_t stride, int count) {
-  Real *ax = a, *ay = a + stride, *az = a + 2 * stride;
-  Real *bx = b, *by = b + stride, *bz = b + 2 * stride;
-  const Real *wa = a + 3 * stride, *wb = b + 3 * stride;
+  const Real *ax = a, *ay = a + stride, *az = a + 2 * stride;
+  const Real *bx = b, *by = b + stride, *bz = b + 2 * stride;
+  Real *ux = a + QuarterRows::kMove * stride, *uy = ux + stride, *uz = uy + stride;
+  Real *vx = b + QuarterRows::kMove * stride, *vy = vx + stride, *vz = vy + stride;
+  const Real *wa = a + QuarterRows::kInverseMass * stride, *wb = b + QuarterRows::kInverseMass * stride;
   WEFT_INDEPENDENT_ITERATIONS
   for (int i = 0; i < count; ++i) {
-    const Real xa = ax[i], ya = ay[i], za = az[i], ma = wa[i];
-    const Real xb = bx[i], yb = by[i], zb = bz[i], mb = wb[i];
-    const Real dx = xa - xb, dy = ya - yb, dz = za - zb;
+    const Real xa = ux[i], ya = uy[i], za = uz[i], ma = wa[i];
+    const Real xb = vx[i], yb = vy[i], zb = vz[i], mb = wb[i];
+    const Real dx = ax[i] - bx[i] + (xa - xb);
+    const Real dy = ay[i] - by[i] + (ya - yb);
+    const Real dz = az[i] - bz[i] + (za - zb);
     // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
     const Real smallest = std::numeric_limits<Real>::min();
     const Real squared = dx * dx + dy * dy + dz * dz;
@@ -33,12 +37,12 @@ template <class Real>
     const Real k = share * stiffness[i];
     const Real factor = k * (rest_length - length) / (length * (Real(1) + k * (ma + mb)));
     const Real fa = factor * ma, fb = factor * mb;
-    ax[i] = xa + fa * dx;
-    ay[i] = ya + fa * dy;
-    az[i] = za + fa * dz;
-    bx[i] = xb - fb * dx;
-    by[i] = yb - fb * dy;
-    bz[i] = zb - fb * dz;
+    ux[i] = xa + fa * dx;
+    uy[i] = ya + fa * dy;
+    uz[i] = za + fa * dz;
+    vx[i] = xb - fb * dx;
+    vy[i] = yb - fb * dy;
+    vz[i] = zb - fb * dz;
   }
 }
 
@@ -133,53 +137,71 @@ template <class Real>
 [[gnu::always_inline]] inline void set_inverse_masses_any(const QuarterRows& layout, const Grid& grid,
                                                           const Real* inverse_mass, Real* sheet) {
   for (int r = 0; r < grid.rows; ++r) {
-    to_lanes(layout, inverse_mass + grid.index(r, 0),
-             sheet + static_cast<std::size_t>(r) * layout.row_size() + 3 * layout.stride);
+    to_lanes(
+        layout, inverse_mass + grid.index(r, 0),
+        sheet + static_cast<std::size_t>(r) * layout.row_size() + QuarterRows::kInverseMass * layout.stride);
   }
 }
 
 /// One component of one row.
 template <class Real>
-[[gnu::always_inline]] inline void predict_row(const Real* __restrict force,
-                                               const Real* __restrict inverse_mass, Real* __restrict velocity,
-                                               Real* __restrict position, Real impulse_time, Real h,
-                                               int count) {
-  for (int c = 0; c < count; ++c) {
+struct RowComponent {
+  Real* __restrict velocity;
+  Real* __restrict position;
+  Real* __restrict rounded_off;
+
+  RowComponent(const XpbdNodes<Real>& nodes, Real* Components<Real>::*component, std::size_t at)
+      : velocity(nodes.velocity.*component + at),
+        position(nodes.position.*component + at),
+        rounded_off(nodes.rounded_off.*component + at) {}
+};
+
+/// `move` is work space of a row.
+template <class Real>
+[[gnu::always_inline]] inline void predict_row(const QuarterRows& layout, const RowComponent<Real>& nodes,
+                                               const Real* __restrict force,
+                                               const Real* __restrict inverse_mass, Real impulse_time, Real h,
+                                               Real* lanes, Real* __restrict move) {
+  for (int c = 0; c < layout.cols; ++c) {
     const bool free = inverse_mass[c] > Real(0);
-    const Real v = free ? velocity[c] + force[c] * inverse_mass[c] * impulse_time : Real(0);
-    velocity[c] = v;
-    position[c] += v * h;
+    const Real v = free ? nodes.velocity[c] + force[c] * inverse_mass[c] * impulse_time : Real(0);
+    nodes.velocity[c] = v;
+    nodes.rounded_off[c] = free ? nodes.rounded_off[c] : Real(0);
+    move[c] = nodes.rounded_off[c] + v * h;
   }
+  to_lanes<Real>(layout, nodes.position, lanes);
+  to_lanes<Real>(layout, move, lanes + QuarterRows::kMove * layout.stride);
 }
 
 template <class Real>
 [[gnu::always_inline]] inline void predict_any(const QuarterRows& layout, const Grid& grid,
                                                const XpbdNodes<Real>& nodes, Real impulse_time, Real h,
-                                               Real* sheet) {
-  const Components<const Real> f = nodes.force;
-  const Components<Real> v = nodes.velocity, p = nodes.position;
+                                               Real* sheet, Real* row) {
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t at = grid.index(r, 0);
     const Real* inverse_mass = nodes.inverse_mass + at;
-    predict_row(f.x + at, inverse_mass, v.x + at, p.x + at, impulse_time, h, grid.cols);
-    predict_row(f.y + at, inverse_mass, v.y + at, p.y + at, impulse_time, h, grid.cols);
-    predict_row(f.z + at, inverse_mass, v.z + at, p.z + at, impulse_time, h, grid.cols);
     Real* lanes = sheet + static_cast<std::size_t>(r) * layout.row_size();
-    to_lanes(layout, p.x + at, lanes);
-    to_lanes(layout, p.y + at, lanes + layout.stride);
-    to_lanes(layout, p.z + at, lanes + 2 * layout.stride);
+    predict_row<Real>(layout, {nodes, &Components<Real>::x, at}, nodes.force.x + at, inverse_mass,
+                      impulse_time, h, lanes, row);
+    predict_row<Real>(layout, {nodes, &Components<Real>::y, at}, nodes.force.y + at, inverse_mass,
+                      impulse_time, h, lanes + layout.stride, row);
+    predict_row<Real>(layout, {nodes, &Components<Real>::z, at}, nodes.force.z + at, inverse_mass,
+                      impulse_time, h, lanes + 2 * layout.stride, row);
   }
 }
 
-/// One component of one row.
+/// `move` is work space of a row.
 template <class Real>
-[[gnu::always_inline]] inline void take_over_row(const QuarterRows& layout, const Real* lanes, Real rate,
-                                                 Real* __restrict velocity, Real* __restrict position,
-                                                 Real* __restrict row) {
-  from_lanes(layout, lanes, row);
+[[gnu::always_inline]] inline void take_over_row(const QuarterRows& layout, const RowComponent<Real>& nodes,
+                                                 const Real* lanes, Real h, Real* __restrict move) {
+  from_lanes(layout, lanes + QuarterRows::kMove * layout.stride, move);
+  const Real rate = Real(1) / h;
   for (int c = 0; c < layout.cols; ++c) {
-    velocity[c] += (row[c] - position[c]) * rate;
-    position[c] = row[c];
+    const Real before = nodes.position[c], predicted = nodes.rounded_off[c] + nodes.velocity[c] * h;
+    const Real after = before + move[c];
+    nodes.velocity[c] += (move[c] - predicted) * rate;
+    nodes.rounded_off[c] = move[c] - (after - before);
+    nodes.position[c] = after;
   }
 }
 
@@ -187,14 +209,12 @@ template <class Real>
 [[gnu::always_inline]] inline void take_over_any(const QuarterRows& layout, const Grid& grid,
                                                  const Real* sheet, Real h, const XpbdNodes<Real>& nodes,
                                                  Real* row) {
-  const Real rate = Real(1) / h;
-  const Components<Real> v = nodes.velocity, p = nodes.position;
   for (int r = 0; r < grid.rows; ++r) {
     const Real* lanes = sheet + static_cast<std::size_t>(r) * layout.row_size();
     const std::size_t at = grid.index(r, 0);
-    take_over_row(layout, lanes, rate, v.x + at, p.x + at, row);
-    take_over_row(layout, lanes + layout.stride, rate, v.y + at, p.y + at, row);
-    take_over_row(layout, lanes + 2 * layout.stride, rate, v.z + at, p.z + at, row);
+    take_over_row<Real>(layout, {nodes, &Components<Real>::x, at}, lanes, h, row);
+    take_over_row<Real>(layout, {nodes, &Components<Real>::y, at}, lanes + layout.stride, h, row);
+    take_over_row<Real>(layout, {nodes, &Components<Real>::z, at}, lanes + 2 * layout.stride, h, row);
   }
 }
 
@@ -216,12 +236,12 @@ WEFT_MULTIVERSION void set_inverse_masses(const QuarterRows& layout, const Grid&
 }
 
 WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<float>& nodes,
-                               float impulse_time, float h, float* sheet) {
-  predict_any(layout, grid, nodes, impulse_time, h, sheet);
+                               float impulse_time, float h, float* sheet, float* row) {
+  predict_any(layout, grid, nodes, impulse_time, h, sheet, row);
 }
 WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double>& nodes,
-                               double impulse_time, double h, double* sheet) {
-  predict_any(layout, grid, nodes, impulse_time, h, sheet);
+                               double impulse_time, double h, double* sheet, double* row) {
+  predict_any(layout, grid, nodes, impulse_time, h, sheet, row);
 }
 
 WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet) {

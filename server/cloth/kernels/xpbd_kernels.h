@@ -5,17 +5,20 @@ namespace weft::kernels {
 
 /// How the nodes of a row lie while XPBD projects: by column modulo 4, in the order 1, 2, 3, 0, `width` lanes
 /// each and one more for the last column. Springs to the next or the second next column then join two runs of
-/// lanes that do not meet: whole vectors, no gathers. A row holds x, y, z and the inverse mass, `stride`
-/// scalars each.
+/// lanes that do not meet: whole vectors, no gathers. A row holds seven fields of `stride` scalars each: x,
+/// y, z where the substep began, x, y, z of the move since, and the inverse mass. Apart, as their sum is
+/// rounded to 1e-7 m: stiff springs take that back each substep, which as a velocity, 1e-7 m / h, shakes a
+/// cloth for ever.
 struct QuarterRows {
   int rows = 0, cols = 0;
   int width = 0;           ///< lanes of a quarter, a multiple of 8
-  std::size_t stride = 0;  ///< scalars from one component to the next; a row takes four of them
+  std::size_t stride = 0;  ///< scalars from one field to the next
 
   QuarterRows() = default;
   explicit QuarterRows(const Grid& grid);
   std::size_t size() const { return static_cast<std::size_t>(rows) * row_size(); }
-  std::size_t row_size() const { return 4 * stride; }
+  static constexpr int kMove = 3, kInverseMass = 6, kFields = 7;
+  std::size_t row_size() const { return kFields * stride; }
   /// Where the columns col, col + 4, col + 8, ... begin.
   int lane(int col) const { return (col + 3) % 4 * width + col / 4; }
 };
@@ -35,6 +38,8 @@ struct XpbdNodes {
   Components<const Real> force;
   const Real* inverse_mass;
   Components<Real> velocity, position;
+  Components<Real>
+      rounded_off;  ///< what the position's rounding left out, m: taken along into the next substep
 };
 
 /// Copies the inverse masses into `sheet`, whose lanes without a node must be zero.
@@ -42,11 +47,12 @@ void set_inverse_masses(const QuarterRows& layout, const Grid& grid, const float
 void set_inverse_masses(const QuarterRows& layout, const Grid& grid, const double* inverse_mass,
                         double* sheet);
 
-/// v += impulse_time F / m, r += h v, and r into `sheet`. Where inverse_mass is 0, v becomes 0.
+/// v += impulse_time F / m; r and the move, what was rounded off and h v, into `sheet`. Where inverse_mass is
+/// 0, v becomes 0. `row` is work space of grid.stride scalars.
 void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<float>& nodes, float impulse_time,
-             float h, float* sheet);
+             float h, float* sheet, float* row);
 void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double>& nodes, double impulse_time,
-             double h, double* sheet);
+             double h, double* sheet, double* row);
 
 /// One sweep over the family's springs: each is projected once, in two colours. XPBD with compliance 1/k and
 /// a multiplier that starts from zero moves end i along the spring by
@@ -54,8 +60,7 @@ void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double
 void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 
-/// Takes over the projected positions p: v += (p - r) / h, r = p. Not (p - r_before) / h: in single precision
-/// that would round every velocity to multiples of 1e-7 m / h. `row` is work space of grid.stride scalars.
+/// Takes over the projected moves d: v += (d - d predicted) / h, r += d. `row` as above.
 void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,
                const XpbdNodes<float>& nodes, float* row);
 void take_over(const QuarterRows& layout, const Grid& grid, const double* sheet, double h,

@@ -1,5 +1,6 @@
 #include "cloth/solver/conjugate_gradients.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/kernels/implicit_kernels.h"
@@ -8,7 +9,7 @@ namespace weft {
 
 template <class Real>
 LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kernels::Components<const Real> b,
-                                                  kernels::Components<Real> x, double target,
+                                                  kernels::Components<Real> x, const SolveTarget& target,
                                                   int max_iterations) {
   const Grid& grid = system.grid();
   kernels::Components<Real> p = vectors_.vector(0), q = vectors_.vector(3), r = vectors_.vector(6);
@@ -22,6 +23,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     kernels::scale_guess<Real>(x + first, b + first, q + first, r + first, static_cast<Real>(scale), count);
   });
   double rz = system.precondition(r, p);
+  report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
   while (rz > 0 && report.iterations < max_iterations) {
     const double curvature = system.multiply(p, q);
     if (!(curvature > 0)) break;
@@ -32,7 +34,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     });
     ++report.iterations;
     report.decrease += step * rz / 2;
-    if (step * rz <= target) {
+    if (step * rz <= report.target) {
       report.converged = true;
       break;
     }

@@ -164,7 +164,8 @@ TEST_P(LinearSystem, SolutionIsThatOfSparseCholesky) {
   put(b, vectors_.vector(3));
   put(Eigen::VectorXd::Zero(unknowns_), vectors_.vector(6));
   ConjugateGradients<double> solver(grid_);
-  const LinearSolveReport report = solver.solve(system_, vectors_.vector(3), vectors_.vector(6), 1e-24, 500);
+  const LinearSolveReport report =
+      solver.solve(system_, vectors_.vector(3), vectors_.vector(6), {.least = 1e-24}, 500);
   EXPECT_TRUE(report.converged);
   // The last step's energy 1e-24 J on a matrix of at least 0.5 N/m leaves an error of about 1e-12 m, times
   // what the preconditioner's convergence (about 0.7 an iteration) still had to go.
@@ -187,7 +188,7 @@ TEST_P(LinearSystem, UnfinishedSolutionLosesEnergy) {
   ConjugateGradients<double> solver(grid_);
   for (const int iterations : {0, 1, 2, 5}) {
     put(1000 * random_vector(6), vectors_.vector(6));
-    solver.solve(system_, vectors_.vector(3), vectors_.vector(6), 0, iterations);
+    solver.solve(system_, vectors_.vector(3), vectors_.vector(6), {}, iterations);
     const Eigen::VectorXd x = take(vectors_.vector(6));
     EXPECT_LE(0.5 * x.dot(reference_ * x) - b.dot(x), 0) << iterations;
   }
@@ -227,7 +228,7 @@ int iterations(int nodes, double stiffness) {
   const double first = system.precondition(b, x);
   test::each_node(
       grid, [&](int r, int c) { x.x[grid.index(r, c)] = x.y[grid.index(r, c)] = x.z[grid.index(r, c)] = 0; });
-  return solver.solve(system, b, x, 1e-6 * first, 200).iterations;
+  return solver.solve(system, b, x, {.least = 1e-6 * first}, 200).iterations;
 }
 
 // Multigrid's point: twice the nodes a side need no more iterations. With block Jacobi alone they would

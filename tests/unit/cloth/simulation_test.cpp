@@ -120,17 +120,17 @@ TEST(SimulationCommands, AnIntegratorTakesOverInTheNextStepAndChangesNothingElse
   Simulation<double> changed(busy_scene()), other(busy_scene());
   run(changed, 5);
   const Particles<double> before = changed.cloths()[0].particles();
-  changed.set_integrator(XpbdDescription{7});
+  changed.set_integrator(SymplecticEulerDescription{70});
   EXPECT_TRUE(test::same_state(before, changed.cloths()[0].particles()));
   changed.step();
-  EXPECT_EQ(changed.report(0).substeps, 7);
+  EXPECT_EQ(changed.report(0).substeps, 70);
   EXPECT_EQ(changed.step_count(), 6u);
-  // There and back between two steps is as if nothing had been said: these methods remember nothing.
+  // There and back between two steps is as if nothing had been said: this method remembers nothing.
   run(other, 5);
-  other.set_integrator(XpbdDescription{7});
+  other.set_integrator(SymplecticEulerDescription{70});
   other.step();
   other.set_integrator(BackwardEulerDescription{});
-  other.set_integrator(XpbdDescription{7});
+  other.set_integrator(SymplecticEulerDescription{70});
   run(other, 3);
   run(changed, 3);
   EXPECT_TRUE(test::same_state(changed.cloths()[0].particles(), other.cloths()[0].particles()));
