@@ -8,7 +8,9 @@ namespace weft {
 namespace {
 
 /// Newton iterations added at most when those asked for bring in energy. Half a turn a frame takes one.
-constexpr int kSpareIterations = 3;
+constexpr int kSpareIterations = 8;
+/// A linearisation off by more than this share of the motion's energy is made again. Smooth motion never is.
+constexpr double kRough = 0.05;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
 /// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
@@ -228,7 +230,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool found = changed.taken || solved.decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
     const bool pulled = s.contacts.release_pulling(s.move) > solved.target;
-    if (report.brought_in <= 0 && !pulled && (left <= 1 || changed.error <= solved.target)) break;
+    if (report.brought_in <= 0 && !pulled &&
+        (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
+      break;
   }
   return report;
 }
