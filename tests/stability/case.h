@@ -46,7 +46,7 @@ struct Expectation {
   double stretch_from = 1;          ///< s, of the last phase: from then on it is held to it
   double penetration = 1e-5;        ///< m, deepest that a node may be in a solid at the end of a step
   double penetration_from = 0;      ///< s, of the case: from then on
-  bool rests = true;                ///< at its end it has settled and nothing jitters (criteria.h)
+  bool rests = true;                ///< falls asleep after it (criteria.h)
   std::optional<double> top_speed;  ///< m/s, of any node, from penetration_from on
 };
 

@@ -88,8 +88,10 @@ Case gale() {
     };
   };
   Case made{"S5",
-            "wind of 60 m/s, turning round every 0.5 s, then none: hangs flat again",
+            "wind of 60 m/s, turning round every 0.5 s, then none: comes to rest",
             {{kSeconds, scene(kSpeed)}, {8, scene(0)}}};
+  // Not flat for sure: an edge that the wind wound up stays so, held by the bending springs, with every
+  // method.
   made.drive = [](Simulation<float>& simulation, double time) {
     const bool back = static_cast<int>(time / kTurn) % 2 == 1;
     if (time < kSeconds) simulation.set_wind({{0, 0, back ? 1.0 : -1.0}, kSpeed});
@@ -104,7 +106,6 @@ Case gale() {
     expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
     return expect;
   };
-  made.ending = hangs_flat(0.01);
   return made;
 }
 
@@ -114,6 +115,7 @@ Case sized(std::string name, std::string what, double size) {
   const double seconds = 12 / swing;                        // e^-12 of the swing is left
   const auto scene = [=](const Setup& setup) {
     SimulationDescription made = ordinary_sheet(setup, {kTopEdge});
+    made.sleep_speed *= size / kSize;
     ClothDescription& cloth = made.cloths[0];
     cloth.size = {size, size};
     cloth.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitX()));
