@@ -167,12 +167,12 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
                                    double dt) {
   using Clock = std::chrono::steady_clock;
   using Verdict = typename StepGuard<Real>::Verdict;
-  if (contact_) contact_->begin_step(solids);  // nothing is given yet, and nothing while it stands still
+  solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && time < pins_.end_of_motion()) wake();
   if (sleep_.through(solids, wind) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
     const Rung rung = guard_.rung();
-    AdvanceReport report = attempt(solids, wind, time, dt);
+    AdvanceReport report = attempt(wind, time, dt);
     const auto begin = Clock::now();
     const Verdict verdict = guard_.judge(particles_, report);
     if (verdict == Verdict::good) {
@@ -184,21 +184,16 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
       return report;
     }
     forget_attempt();
+    solids_ = solids;
     if (verdict == Verdict::stand_still) return {};
   }
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::attempt(const std::vector<Solid>& solids, const Wind& wind, double time,
-                                   double dt) {
-  if (!solids.empty() && !contact_) {
-    contact_ = std::make_unique<Contact<Real>>(particles_.grid());
-    contact_->begin_step(solids);
-  }
+AdvanceReport Cloth<Real>::attempt(const Wind& wind, double time, double dt) {
   const Forces<Real> forces{
       &springs_, &effects_, {&description_, &wind, time}, pins_.moving() ? &pins_ : nullptr};
-  return integrator_->advance(particles_, forces, solids.empty() ? nullptr : contact_.get(), solids, time,
-                              dt);
+  return integrator_->advance(particles_, forces, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 
 template <class Real>
@@ -212,8 +207,22 @@ void Cloth<Real>::forget_attempt() {
 }
 
 template <class Real>
+Contact<Real>& Cloth<Real>::contact() {
+  if (!contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
+  return *contact_;
+}
+
+template <class Real>
+bool Cloth<Real>::meets(const Solid& solid, double dt) {
+  const std::vector<Touch>& touches = contact().touches();
+  return std::any_of(touches.begin(), touches.end(),
+                     [&](const Touch& t) { return t.collider == solid.id; }) ||
+         !contact().foresee(particles_, {solid}, {0, 1, dt}).empty();
+}
+
+template <class Real>
 void Cloth<Real>::push_balls(Colliders& colliders) const {
-  if (contact_) colliders.push(contact_->impulses());
+  colliders.push(solids_);
 }
 
 template class Cloth<float>;

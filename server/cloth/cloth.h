@@ -51,9 +51,12 @@ class Cloth {
   std::vector<GuardEvent> take_guard_events() { return guard_.take_events(); }
 
   /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
-  /// push_balls(). Several cloths may do it at the same time.
+  /// push_balls(). Several cloths may do it at the same time, each with its share of a ball that they all
+  /// touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Wind& wind, double time, double dt);
-  /// Hands over the impulses of the last advance.
+  /// Touches the solid, or will within a step of `dt` seconds if all go on as they go.
+  bool meets(const Solid& solid, double dt);
+  /// Hands over what the last advance gave to the balls.
   void push_balls(Colliders& colliders) const;
 
  private:
@@ -61,7 +64,8 @@ class Cloth {
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
   void make_springs();
-  AdvanceReport attempt(const std::vector<Solid>& solids, const Wind& wind, double time, double dt);
+  Contact<Real>& contact();
+  AdvanceReport attempt(const Wind& wind, double time, double dt);
   /// Nothing remembers a step that was taken back.
   void forget_attempt();
 
@@ -77,6 +81,7 @@ class Cloth {
   std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
+  std::vector<Solid> solids_;               ///< as the cloth moves them in the step
   int nodes_in_contact_ = 0;                ///< at the end of the last step that was made
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
   ContactCounters earlier_contacts_;        ///< at the levels left behind

@@ -37,7 +37,7 @@ Solid Ball::solid() const {
   return {.id = id,
           .shape = Sphere{radius},
           .friction = friction,
-          .yields = motion == BallDescription::Motion::dynamic,
+          .inverse_mass = motion == BallDescription::Motion::dynamic ? 1 / mass : 0,
           .steps_to_clear = steps_to_clear,
           .start = start,
           .position = position,
@@ -107,7 +107,7 @@ void Colliders::forget_target(BallId id) {
 void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
   for (Ball& ball : balls_) {
     ball.start = ball.position;
-    ball.impulse.setZero();
+    ball.sharing = 1;
     if (!ball.path.empty()) {
       ball.start = along_path(ball.path, time);
       ball.position = along_path(ball.path, time + dt);
@@ -134,15 +134,27 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
   solids_.insert(solids_.end(), obstacles_.begin(), obstacles_.end());
 }
 
-void Colliders::push(const std::vector<Vec3>& impulses) {
-  for (std::size_t i = 0; i < balls_.size(); ++i) balls_[i].impulse += impulses[i];
+void Colliders::share(BallId id, int cloths) {
+  const auto index = static_cast<std::size_t>(find_ball(balls_, id) - balls_.begin());
+  balls_[index].sharing = cloths;
+  solids_[index].inverse_mass = cloths / balls_[index].mass;
+}
+
+void Colliders::push(const std::vector<Solid>& left) {
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    balls_[i].pushed += (left[i].position - solids_[i].position) / balls_[i].sharing;
+    balls_[i].sped_up += (left[i].velocity - solids_[i].velocity) / balls_[i].sharing;
+  }
 }
 
 void Colliders::end_step() {
-  for (Ball& ball : balls_) {
-    if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += ball.impulse / ball.mass;
-    ball.impulse.setZero();
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    Ball& ball = balls_[i];
     ball.steps_to_clear = std::max(0, ball.steps_to_clear - 1);
+    if (ball.motion != BallDescription::Motion::dynamic) continue;
+    ball.position += std::exchange(ball.pushed, Vec3(0, 0, 0));
+    ball.velocity += std::exchange(ball.sped_up, Vec3(0, 0, 0));
+    solids_[i].position = ball.position;
   }
   stop_bad_balls();
 }

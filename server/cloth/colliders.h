@@ -21,7 +21,9 @@ struct Ball {
   Vec3 start{0, 0, 0};     ///< at its start, m
   Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s: what the cloth feels
   int steps_to_clear = 0;  ///< Solid::steps_to_clear
-  Vec3 impulse{0, 0, 0};   ///< given by the cloths during the step, N s; taken up when the step ends
+  Vec3 pushed{0, 0, 0};    ///< from its way by the cloths during the step, m; taken up when the step ends
+  Vec3 sped_up{0, 0, 0};   ///< the same of its velocity, m/s
+  int sharing = 1;         ///< cloths that see a share of its mass in this step
   std::vector<Waypoint> path;
 
   Solid solid() const;
@@ -50,9 +52,15 @@ class Colliders {
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
   /// velocity.
   void begin_step(double time, double dt, const Vec3& gravity);
-  /// What one cloth gave to each solid in this step, N s; the order of the calls decides the last bits.
-  void push(const std::vector<Vec3>& impulses);
-  /// Dynamic balls take up the impulses the cloths gave them.
+  /// So many cloths, at least 1, will touch the ball in the step that has begun. They are stepped side by
+  /// side and know nothing of each other, and would all stop the same ball, and so throw it back: it is for
+  /// each of them a ball of its share of the mass, and at the end the mean of these, which has their momentum
+  /// and at most their energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid
+  /// Body Simulation, 2012).
+  void share(BallId id, int cloths);
+  /// How one cloth leaves solids() at the step's end; the order of the calls decides the last bits.
+  void push(const std::vector<Solid>& left);
+  /// Dynamic balls take up what the cloths gave them.
   void end_step();
   /// A ball whose place or velocity is beyond this, m or m/s, or not a number, is put back to its last good
   /// place, at rest and without its path. Single precision, which frames have, still holds it.

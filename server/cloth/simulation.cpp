@@ -65,6 +65,7 @@ void Simulation<Real>::step() {
   profile_.levels = seconds_since(begin);
 
   colliders_.begin_step(time(), dt, gravity_);
+  if (cloths_.size() > 1) share_balls(dt);
   advance_cloths(dt);
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     cloths_[i].push_balls(colliders_);
@@ -77,6 +78,16 @@ void Simulation<Real>::step() {
 
   collect_guard_events();
   profile_.total = seconds_since(begin);
+}
+
+template <class Real>
+void Simulation<Real>::share_balls(double dt) {
+  for (const Solid& solid : colliders_.solids()) {
+    if (!solid.yields()) continue;
+    const auto meet = std::count_if(cloths_.begin(), cloths_.end(),
+                                    [&](Cloth<Real>& cloth) { return cloth.meets(solid, dt); });
+    if (meet > 1) colliders_.share(solid.id, static_cast<int>(meet));
+  }
 }
 
 template <class Real>

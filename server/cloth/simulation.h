@@ -73,6 +73,8 @@ class Simulation {
   void reset();
 
  private:
+  /// Tells the balls how many cloths will touch them.
+  void share_balls(double dt);
   /// All cloths through the step, as it is for each of them alone.
   void advance_cloths(double dt);
   void collect_guard_events();

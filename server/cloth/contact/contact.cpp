@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <iterator>
 
 #include "cloth/contact/node_contact.h"
 #include "cloth/kernels/contact_kernels.h"
@@ -37,15 +37,15 @@ struct Way {
   }
 };
 
-kernels::Sphere sphere_of(const PlacedShape& placed, double radius) {
-  return {placed.centre.x(), placed.centre.y(), placed.centre.z(), radius * radius};
+kernels::Sphere sphere_of(const PlacedShape& placed, const Sphere& sphere) {
+  return {placed.centre.x(), placed.centre.y(), placed.centre.z(), sphere.radius * sphere.radius};
 }
 
 /// Which of a block's rows have a node in the shape.
 template <class Real>
 std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedShape& placed) {
   if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
-    return kernels::rows_inside(block, sphere_of(placed, sphere->radius));
+    return kernels::rows_inside(block, sphere_of(placed, *sphere));
   }
   const Eigen::Matrix3d& axes = placed.rotation;
   if (std::holds_alternative<HalfSpace>(placed.shape)) {
@@ -71,60 +71,14 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
   const auto* sphere = std::get_if<Sphere>(&placed.shape);
   if (sphere == nullptr) return ~std::uint32_t{0};
   return kernels::rows_swept(block, {way.other + first, way.own, way.factor},
-                             {moving.move.x(), moving.move.y(), moving.move.z()},
-                             sphere_of(placed, sphere->radius));
+                             {moving.move.x(), moving.move.y(), moving.move.z()}, sphere_of(placed, *sphere));
 }
-
-/// The nodes that a tile answers for. A border node that two tiles share is looked at in the one below or to
-/// the right, whose box holds it as well.
-struct OwnNodes {
-  int rows, cols;
-
-  OwnNodes(const Tile& tile, const Grid& grid)
-      : rows((tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1) - tile.row_begin),
-        cols((tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin) {}
-};
 
 }  // namespace
 
 template <class Real>
-const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles,
-                                                const std::vector<Solid>& solids, const Substep& substep) {
-  const Grid& grid = particles.grid();
-  const double h = substep.seconds;
-  ahead_ = particles.position;
-  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.velocity),
-                      static_cast<Real>(h), grid.size());
-  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.acceleration),
-                      static_cast<Real>(h * h), grid.size());
-  const kernels::Components<const Real> ahead = kernels::components(std::as_const(ahead_));
-  for (const TileSolidPair& pair : broad_phase_.find_pairs(ahead_, solids, {substep.to, substep.to, 0})) {
-    const Tile& tile = broad_phase_.tiles()[static_cast<std::size_t>(pair.tile)];
-    const auto [rows, cols] = OwnNodes(tile, grid);
-    const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
-    const PlacedShape placed = solid.placed(substep.to);
-    const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
-    const std::uint32_t struck = rows_inside<Real>({ahead + first, rows, grid.stride, cols}, placed);
-    for (int r = 0; r < rows; ++r) {
-      if ((struck >> r & 1U) == 0) continue;
-      for (int c = 0; c < cols; ++c) {
-        const int row = tile.row_begin + r, col = tile.col_begin + c;
-        if (particles.inverse_mass.at(row, col) == Real(0)) continue;
-        const std::size_t node = grid.index(row, col);
-        const Vec3 point(double(ahead.x[node]), double(ahead.y[node]), double(ahead.z[node]));
-        if (placed.contains(point)) touches_.push_back({node, solid.id});
-      }
-    }
-  }
-  std::sort(touches_.begin(), touches_.end());
-  touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
-  return touches_;
-}
-
-template <class Real>
-int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>& solids,
-                           const Substep& substep, const VectorField<Real>* start,
-                           VectorField<Real>* rounded_off) {
+int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solids, const Substep& substep,
+                           const VectorField<Real>* start, VectorField<Real>* rounded_off) {
   touches_.clear();
   const auto way = Way<Real>::of(particles, start, substep.seconds);
   const double longest = way.longest(particles);
@@ -135,39 +89,141 @@ int Contact<Real>::resolve(Particles<Real>& particles, const std::vector<Solid>&
     const Vec3 move = solid.at(substep.to) - solid.at(substep.from);
     const bool fast = longest + move.norm() > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    moving.push_back({&solid, solid.placed(substep.to), move, fast, substep});
+    moving.push_back({&solid, solid.placed(substep.to), move, fast, solid.velocity, substep});
   }
   const std::vector<TileSolidPair>& pairs =
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});
 
-  const Grid& grid = particles.grid();
-  const kernels::Components<const Real> position = kernels::components(particles.position);
   int in_contact = 0;
+  for_each_struck(
+      particles.position, pairs,
+      [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
+        return rows_struck(block, moving[static_cast<std::size_t>(pair.solid)], way, first);
+      },
+      [&](int row, int col) {
+        if (particles.inverse_mass.at(row, col) == Real(0)) return;
+        const Vec3 move = way.move(particles.position_at(row, col), particles.grid().index(row, col));
+        NodeContact<Real> node({particles, rounded_off}, row, col, move, substep.seconds);
+        if (node.resolve(moving, touches_)) ++in_contact;
+      });
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (moving[i].velocity == solids[i].velocity) continue;
+    solids[i].go_on(moving[i].velocity, substep.to, substep.step_seconds());
+  }
+  counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
+  return in_contact;
+}
+
+template <class Real>
+const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles,
+                                                const std::vector<Solid>& solids, const Substep& substep) {
+  const auto yields = [](const Solid& solid) { return solid.yields(); };
+  if (std::all_of(solids.begin(), solids.end(), yields)) return touches_;
+  const std::size_t count = particles.grid().size();
+  const double h = substep.seconds;
+  ahead_ = particles.position;
+  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.velocity),
+                      static_cast<Real>(h), count);
+  kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.acceleration),
+                      static_cast<Real>(h * h), count);
+  for_each_struck(
+      ahead_, broad_phase_.find_pairs(ahead_, solids, {substep.to, substep.to, 0}),
+      [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
+        const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+        return solid.yields() ? std::uint32_t{0} : rows_inside(block, solid.placed(substep.to));
+      },
+      [&](int row, int col) {
+        if (particles.inverse_mass.at(row, col) == Real(0)) return;
+        const Vec3 end(double(ahead_.x.at(row, col)), double(ahead_.y.at(row, col)),
+                       double(ahead_.z.at(row, col)));
+        for (const Solid& solid : solids) {
+          if (solid.yields() || !solid.placed(substep.to).contains(end)) continue;
+          touches_.push_back({particles.grid().index(row, col), solid.id});
+        }
+      });
+  std::sort(touches_.begin(), touches_.end());
+  touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
+  return touches_;
+}
+
+template <class Real>
+const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& particles,
+                                                   const std::vector<Solid>& solids, const Substep& substep) {
+  arrivals_.clear();
+  if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); })) {
+    return arrivals_;
+  }
+  const double h = substep.seconds;
+  const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
+  const double reach =
+      h * std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
+  for_each_struck(
+      particles.position,
+      broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach}),
+      [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
+        const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+        const auto* sphere = std::get_if<Sphere>(&solid.shape);
+        if (!solid.yields() || sphere == nullptr) return std::uint32_t{0};  // only balls yield
+        // The kernel looks at the way back: from where node and ball will be to where they are.
+        const Vec3 place = solid.at(substep.from), back = place - solid.at(substep.to);
+        return kernels::rows_swept(block, {velocity + first, Real(1), static_cast<Real>(h)},
+                                   {back.x(), back.y(), back.z()},
+                                   {place.x(), place.y(), place.z(), sphere->radius * sphere->radius});
+      },
+      [&](int row, int col) {
+        if (particles.inverse_mass.at(row, col) == Real(0)) return;
+        const Vec3 place = particles.position_at(row, col);
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+          if (!solids[i].yields()) continue;
+          // As seen from the solid where it will be.
+          const Vec3 begin = place + solids[i].at(substep.to) - solids[i].at(substep.from);
+          const Vec3 end = place + h * particles.velocity_at(row, col);
+          const PlacedShape shape = solids[i].placed(substep.to);
+          const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
+          if (!hit) continue;
+          const double height = (1 - hit->fraction) * (end - begin).dot(hit->normal);
+          arrivals_.push_back({{particles.grid().index(row, col), solids[i].id}, i, {height, hit->normal}});
+        }
+      });
+  return arrivals_;
+}
+
+template <class Real>
+int Contact<Real>::keep(const std::vector<Touch>& pressed) {
+  if (pressed.empty()) return 0;
+  std::vector<Touch> found = touches_;
+  std::sort(found.begin(), found.end());
+  std::set_difference(pressed.begin(), pressed.end(), found.begin(), found.end(),
+                      std::back_inserter(touches_));
+  const std::size_t kept = touches_.size() - found.size();
+  counters_.nodes_in_contact += kept;
+  return static_cast<int>(kept);
+}
+
+template <class Real>
+template <class Struck, class Visit>
+void Contact<Real>::for_each_struck(const VectorField<Real>& position,
+                                    const std::vector<TileSolidPair>& pairs, Struck struck, Visit visit) {
+  const Grid& grid = position.grid();
+  const kernels::Components<const Real> nodes = kernels::components(position);
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].tile == pairs[begin].tile) ++end;
     const Tile& tile = broad_phase_.tiles()[static_cast<std::size_t>(pairs[begin].tile)];
     ++counters_.tiles_examined;
-    const auto [rows, cols] = OwnNodes(tile, grid);
+    // A border node that two tiles share is looked at in the one below or to the right, whose box holds it as
+    // well.
+    const int rows = (tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1) - tile.row_begin;
+    const int cols = (tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin;
     const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
-    const kernels::NodeBlock<Real> block{position + first, rows, grid.stride, cols};
-    std::uint32_t struck = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      struck |= rows_struck(block, moving[static_cast<std::size_t>(pairs[i].solid)], way, first);
-    }
+    const kernels::NodeBlock<Real> block{nodes + first, rows, grid.stride, cols};
+    std::uint32_t rows_found = 0;
+    for (std::size_t i = begin; i < end; ++i) rows_found |= struck(pairs[i], block, first);
     counters_.nodes_tested += static_cast<std::uint64_t>(rows * cols);
     for (int r = 0; r < rows; ++r) {
-      if ((struck >> r & 1U) == 0) continue;
-      for (int c = 0; c < cols; ++c) {
-        const int row = tile.row_begin + r, col = tile.col_begin + c;
-        if (particles.inverse_mass.at(row, col) == Real(0)) continue;
-        const Vec3 move = way.move(particles.position_at(row, col), grid.index(row, col));
-        NodeContact<Real> node({particles, rounded_off}, row, col, move, substep.seconds);
-        if (node.resolve(moving, impulses_, touches_)) ++in_contact;
-      }
+      if ((rows_found >> r & 1U) == 0) continue;
+      for (int c = 0; c < cols; ++c) visit(tile.row_begin + r, tile.col_begin + c);
     }
   }
-  counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
-  return in_contact;
 }
 
 template class Contact<float>;

@@ -10,7 +10,8 @@ namespace weft {
 struct ContactCounters {
   std::uint64_t tiles_examined = 0;  ///< tiles whose nodes were tested against a solid
   std::uint64_t nodes_tested = 0;
-  std::uint64_t nodes_in_contact = 0;  ///< nodes found inside a solid, or on a way through, and brought out
+  std::uint64_t nodes_in_contact = 0;  ///< nodes found inside a solid, or on a way through, and brought out,
+                                       ///< or kept there
 
   friend ContactCounters operator+(const ContactCounters& a, const ContactCounters& b) {
     return {a.tiles_examined + b.tiles_examined, a.nodes_tested + b.nodes_tested,
@@ -23,6 +24,7 @@ struct Substep {
   double from = 0, to = 1;
   double seconds = 1.0 / 60;
 
+  double step_seconds() const { return seconds / (to - from); }  ///< of the whole step
   static Substep of(int index, int count, double dt) {
     return {static_cast<double>(index) / count, static_cast<double>(index + 1) / count, dt / count};
   }
@@ -36,11 +38,21 @@ struct Touch {
   friend auto operator<=>(const Touch&, const Touch&) = default;
 };
 
+/// A node on its way into a solid that yields.
+struct Arrival {
+  Touch touch;
+  std::size_t solid = 0;  ///< index
+  Surface surface;        ///< the tangent plane where they meet, as it will be beside it if both go on
+};
+
 /// The paper's section 2.4, second half: in the struck tiles a particle inside a ball, or another solid, is
 /// pushed back to its surface and loses the part of its velocity, relative to the solid, that points into it.
 /// Coulomb's friction, which the paper has not, slows what is left of it by up to friction times the speed
-/// lost. A particle at a ball's very centre leaves upwards. Pinned nodes stay. The momentum taken is due to
-/// solids that yield (impulses()).
+/// lost. A particle at a ball's very centre leaves upwards. Pinned nodes stay.
+///
+/// A solid that yields takes up, node by node, the momentum that they lose: each hit leaves the two with one
+/// velocity along the normal, as bodies of their masses that hit plastically, so that it keeps their momentum
+/// and never adds energy, whichever is the heavier.
 ///
 /// Where nodes and a solid approach by more than a part of its width in a substep, their ways are compared
 /// instead of their last places (continuous collision): a node goes on from where it met the surface, with
@@ -50,35 +62,44 @@ class Contact {
  public:
   explicit Contact(const Grid& grid) : broad_phase_(grid) {}
 
-  /// Forgets the impulses of the step before.
-  void begin_step(const std::vector<Solid>& solids) { impulses_.assign(solids.size(), Vec3::Zero()); }
-  /// Adds to touches() the nodes that will be in a solid at the substep's end if they go on with the velocity
-  /// and the acceleration they have. For implicit steps, which want to know before.
-  const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
-                                   const Substep& substep);
-  /// Resolves the contacts at a substep's end. `start` holds the nodes' places at its start; without it they
-  /// came there with the velocities that they have. Returns the number of nodes in contact in this call.
+  /// Resolves the contacts at a substep's end, from which on solids that yield have the velocity that their
+  /// momentum gives. `start` holds the nodes' places at its start; without it they came there with the
+  /// velocities that they have. Returns the number of nodes in contact in this call.
   /// `rounded_off`, if the integrator keeps it, is what the positions' rounding leaves out, m.
-  int resolve(Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
+  int resolve(Particles<Real>& particles, std::vector<Solid>& solids, const Substep& substep,
               const VectorField<Real>* start = nullptr, VectorField<Real>* rounded_off = nullptr);
 
-  /// What the cloth gave to each solid since the step began, N s; nothing to those that do not yield. They
-  /// get it from Colliders::push: cloths that are advanced at the same time share them.
-  const std::vector<Vec3>& impulses() const { return impulses_; }
-  std::vector<Vec3>& impulses() { return impulses_; }
+  /// Before a substep: adds to touches() the free nodes that will be in a solid that does not yield at the
+  /// substep's end if they go on with the velocity and the acceleration they have.
+  const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                   const Substep& substep);
+  /// Before a substep: the free nodes that will pass the surface of a solid that yields if all go on as they
+  /// go. Valid until the next call.
+  const std::vector<Arrival>& foresee(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                      const Substep& substep);
 
-  /// What the last resolve found in contact, ordered by tile, then node; after expect() by node, then
-  /// collider.
+  /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.
+  /// Returns how many resolve did not find.
+  int keep(const std::vector<Touch>& pressed);
+
+  /// What the last resolve found in contact, ordered by tile, then node, and then what was kept; after
+  /// expect() by node, then collider.
   const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
 
  private:
+  /// Calls visit(row, col) for every node in those rows of the tiles that struck(pair, block, first node)
+  /// finds for some solid: bit r for row r.
+  template <class Struck, class Visit>
+  void for_each_struck(const VectorField<Real>& position, const std::vector<TileSolidPair>& pairs,
+                       Struck struck, Visit visit);
+
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
   std::vector<Touch> touches_;
+  std::vector<Arrival> arrivals_;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
-  std::vector<Vec3> impulses_;
 };
 
 extern template class Contact<float>;

@@ -23,30 +23,56 @@ void add(const kernels::Components<Real>& field, std::size_t i, const Vec3& valu
   field.z[i] += static_cast<Real>(value.z());
 }
 
-/// blocks += along n n^T + across (I - n n^T).
-template <class Real>
-void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Vec3& n, double along,
-               double across) {
+/// along n n^T + across (I - n n^T).
+Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
   const double both = along - across;
-  blocks.xx[i] += static_cast<Real>(across + both * n.x() * n.x());
-  blocks.xy[i] += static_cast<Real>(both * n.x() * n.y());
-  blocks.xz[i] += static_cast<Real>(both * n.x() * n.z());
-  blocks.yy[i] += static_cast<Real>(across + both * n.y() * n.y());
-  blocks.yz[i] += static_cast<Real>(both * n.y() * n.z());
-  blocks.zz[i] += static_cast<Real>(across + both * n.z() * n.z());
+  const double xy = both * n.x() * n.y(), xz = both * n.x() * n.z(), yz = both * n.y() * n.z();
+  return Eigen::Matrix3d{{across + both * n.x() * n.x(), xy, xz},
+                         {xy, across + both * n.y() * n.y(), yz},
+                         {xz, yz, across + both * n.z() * n.z()}};
+}
+
+template <class Real>
+void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Eigen::Matrix3d& block) {
+  blocks.xx[i] += static_cast<Real>(block(0, 0));
+  blocks.xy[i] += static_cast<Real>(block(0, 1));
+  blocks.xz[i] += static_cast<Real>(block(0, 2));
+  blocks.yy[i] += static_cast<Real>(block(1, 1));
+  blocks.yz[i] += static_cast<Real>(block(1, 2));
+  blocks.zz[i] += static_cast<Real>(block(2, 2));
 }
 
 }  // namespace
 
 template <class Real>
-void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-                                     const std::vector<Solid>& solids, const Substep& substep) {
+void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
+                                     const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                     const Substep& substep, AttachedBodies<Real>& bodies) {
   std::swap(last_, constraints_);
   constraints_.clear();
-  const double h = seconds_ = substep.seconds;
+  bodies.clear();
+  yielding_.clear();
+  substep_ = substep;
+  const double h = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
   const auto before = [](const Constraint& c, const Touch& touch) { return c.touch < touch; };
+  // `surface` as it will be beside the node if both go on as they go.
+  const auto hold = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
+    const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
+    const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
+    const Vec3 move = solid.at(substep.to) - solid.at(substep.from), start = at(position, touch.node),
+               guess = h * at(velocity, touch.node);
+    const Vec3 slip = guess - move;
+    const Vec3& normal = surface.normal;
+    const double sliding = (slip - slip.dot(normal) * normal).norm();
+    const auto index = static_cast<std::size_t>(&solid - solids.data());
+    constraints_.push_back(
+        {touch, solid.yields() ? body_of(index, solid, bodies) : std::nullopt, normal,
+         normal.dot(guess) - surface.distance - solid.depth_left(start, substep.from, substep.to),
+         solid.led_out(start, substep.from, substep.to), move, solid.friction * force, sliding});
+  };
+  // Pressed onto a solid they touch it, be they outside by a hair.
   std::vector<Touch> all = touches;
   for (const Constraint& c : last_) {
     if (c.force > 0) all.push_back(c.touch);
@@ -57,75 +83,101 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const Pa
     const auto solid =
         std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.id == touch.collider; });
     if (solid == solids.end()) continue;
-    const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
-    const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
-
-    const Vec3 move = solid->at(substep.to) - solid->at(substep.from);
-    const Vec3 start = at(position, touch.node), guess = h * at(velocity, touch.node);
-    const Surface surface = solid->placed(substep.to).surface(start + guess);
-    const Vec3& normal = surface.normal;
+    const Vec3 guess = at(position, touch.node) + h * at(velocity, touch.node);
+    const Surface surface = solid->placed(substep.to).surface(guess);
     // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
-    if (surface.distance > standard_gravity().norm() * h * h) continue;
-    const Vec3 slip = guess - move;
-    const double sliding = (slip - slip.dot(normal) * normal).norm();
-    const double left = solid->depth_left(start, substep.from, substep.to);
-    constraints_.push_back({touch, static_cast<std::size_t>(solid - solids.begin()), normal,
-                            normal.dot(guess) - surface.distance - left,
-                            solid->led_out(start, substep.from, substep.to), move, solid->friction * force,
-                            sliding});
+    if (surface.distance <= standard_gravity().norm() * h * h) hold(touch, *solid, surface);
   }
+  const auto touching = static_cast<std::ptrdiff_t>(constraints_.size());
+  for (const Arrival& arrival : arrivals) {
+    const auto end = constraints_.begin() + touching;
+    const auto same = std::lower_bound(constraints_.begin(), end, arrival.touch, before);
+    if (same == end || same->touch != arrival.touch) {
+      hold(arrival.touch, solids[arrival.solid], arrival.surface);
+    }
+  }
+  if (!arrivals.empty()) {
+    std::sort(constraints_.begin(), constraints_.end(),
+              [](const Constraint& a, const Constraint& b) { return a.touch < b.touch; });
+  }
+}
+
+/// The body that the solid is, a new one if need be.
+template <class Real>
+std::optional<int> ContactConstraints<Real>::body_of(std::size_t index, const Solid& solid,
+                                                     AttachedBodies<Real>& bodies) {
+  const auto known = std::find(yielding_.begin(), yielding_.end(), index);
+  if (known != yielding_.end()) return static_cast<int>(known - yielding_.begin());
+  yielding_.push_back(index);
+  return bodies.add(1 / (solid.inverse_mass * substep_.seconds * substep_.seconds));
+}
+
+/// As seen from a solid whose way is not bent.
+template <class Real>
+Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<const Real> move,
+                                       const AttachedBodies<Real>& bodies) {
+  const Vec3 moved = at(move, c.touch.node);
+  return c.body ? Vec3(moved - bodies.move(*c.body)) : moved;
 }
 
 template <class Real>
 void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
-                                      const Real* diagonal, double links_stiffness,
-                                      kernels::Components<const Real> move) {
+                                      AttachedBodies<Real>& bodies, const Real* diagonal,
+                                      double links_stiffness, kernels::Components<const Real> move) {
+  bodies.detach();
   for (Constraint& c : constraints_) {
     if (c.released) continue;
     const std::size_t i = c.touch.node;
     c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
-    const Vec3 moved = at(move, i), slip = c.solid_move - moved;
+    const Vec3 moved = move_of(c, move, bodies), slip = c.solid_move - moved;
     // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
     c.friction_stiffness = c.holds < c.stiffness * c.sliding ? c.holds / c.sliding : c.stiffness;
     if (c.holds == 0) c.friction_stiffness = 0;
-    add_block(blocks, i, c.normal, c.stiffness, c.friction_stiffness);
-    add(b, i,
-        c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal +
-            c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
+    const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
+    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal +
+                       c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal);
+    add_block(blocks, i, stiffness);
+    add(b, i, force);
+    if (c.body) bodies.attach(*c.body, i, stiffness, force);
   }
+  bodies.eliminate(b);
 }
 
 template <class Real>
-double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move) {
+double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move,
+                                                 const AttachedBodies<Real>& bodies) {
   double energy = 0;
   for (Constraint& c : constraints_) {
-    const double beyond = c.normal.dot(at(move, c.touch.node)) - c.distance;
-    if (c.released || !(beyond > 0)) continue;
+    const double beyond = c.normal.dot(move_of(c, move, bodies)) - c.distance;
+    if (c.released == (beyond > 0)) continue;
+    c.released = !c.released;
     energy += c.stiffness * beyond * beyond / 2;
-    c.stiffness = c.friction_stiffness = 0;
-    c.released = true;
   }
   return energy;
 }
 
 template <class Real>
-void ContactConstraints<Real>::finish(kernels::Components<const Real> move, const std::vector<Solid>& solids,
-                                      std::vector<Vec3>& impulses) {
+const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<const Real> move,
+                                                           const AttachedBodies<Real>& bodies,
+                                                           std::vector<Solid>& solids) {
+  pressed_.clear();
   for (Constraint& c : constraints_) {
-    const Vec3 moved = at(move, c.touch.node), slip = c.solid_move - moved;
-    c.force = c.stiffness * (c.distance - c.normal.dot(moved));
-    if (solids[c.solid].yields) {
-      impulses[c.solid] -=
-          seconds_ * (c.force * c.normal + c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal));
-    }
-    c.force = std::max(0.0, c.force);
+    const double depth = c.distance - c.normal.dot(move_of(c, move, bodies));
+    c.force = c.released ? 0 : std::max(0.0, c.stiffness * depth);
+    if (c.body && c.force > 0) pressed_.push_back(c.touch);
   }
+  for (std::size_t body = 0; body < yielding_.size(); ++body) {
+    Solid& solid = solids[yielding_[body]];
+    solid.go_on(solid.velocity + bodies.move(static_cast<int>(body)) / substep_.seconds, substep_.from,
+                substep_.step_seconds());
+  }
+  return pressed_;
 }
 
 template <class Real>
 void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
   for (const Constraint& c : constraints_) {
-    if (!c.released) add(velocity, c.touch.node, -c.led_out / seconds_ * c.normal);
+    if (!c.released) add(velocity, c.touch.node, -c.led_out / substep_.seconds * c.normal);
   }
 }
 

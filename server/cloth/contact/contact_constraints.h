@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "cloth/contact/contact.h"
 #include "cloth/kernels/link_kernels.h"
+#include "cloth/solver/attached_bodies.h"
 
 namespace weft {
 
@@ -9,27 +12,36 @@ namespace weft {
 /// solid by Coulomb friction: a force of at most friction times the normal force, that of the step before. A
 /// spring that turns out to pull is taken away. What little the others give, and nodes that were not
 /// expected, Contact::resolve puts right after the step.
+///
+/// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
+/// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
+/// that is heavier than they are would gain energy without bound.
+///
+/// Nodes that will meet a solid in the step are held to its surface from the start: put there after the step
+/// they would stretch their springs at nobody's cost.
 template <class Real>
 class ContactConstraints {
  public:
-  /// Nodes that touch or will, with forces from the last step; positions and velocities as the substep
-  /// begins.
-  void begin(const std::vector<Touch>& touches, const Particles<Real>& particles,
-             const std::vector<Solid>& solids, const Substep& substep);
+  /// Nodes that touch or will, and those that arrive at a solid that yields, with forces from the last step;
+  /// positions and velocities as the substep begins. `bodies` become the solids that yield and are touched.
+  void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
+             const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
+             AttachedBodies<Real>& bodies);
   void clear() { constraints_.clear(); }
   bool empty() const { return constraints_.empty(); }
 
   /// Adds the constraints to the system of a Newton iteration at `move`. `links_stiffness` is the sum of the
   /// link stiffnesses at a node, N/m, and `diagonal` the system's: together they set how stiff the springs
   /// are.
-  void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, const Real* diagonal,
-              double links_stiffness, kernels::Components<const Real> move);
-  /// Takes away, for the rest of the substep, the constraints that pull their node to the solid at `move`.
-  /// Returns the energy that was in their springs, J.
-  double release_pulling(kernels::Components<const Real> move);
-  /// Reads the forces off the solution and adds the share of momentum of solids that yield to `impulses`.
-  void finish(kernels::Components<const Real> move, const std::vector<Solid>& solids,
-              std::vector<Vec3>& impulses);
+  void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, AttachedBodies<Real>& bodies,
+              const Real* diagonal, double links_stiffness, kernels::Components<const Real> move);
+  /// Takes away the constraints that pull their node to the solid at `move`, and brings back those without
+  /// which a node is inside. Returns the energy of their springs, J.
+  double release_pulling(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies);
+  /// Reads the forces off the solution, and the ways of solids that yield. Returns the nodes pressed onto
+  /// those, in their order.
+  const std::vector<Touch>& finish(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies,
+                                   std::vector<Solid>& solids);
   /// Takes from the velocities what leading nodes out of solids gave them: that is no motion.
   void keep_velocities(kernels::Components<Real> velocity) const;
 
@@ -42,11 +54,11 @@ class ContactConstraints {
  private:
   struct Constraint {
     Touch touch;
-    std::size_t solid;  ///< index
+    std::optional<int> body;  ///< index
     Vec3 normal;
     double distance;                ///< that the node must move along the normal, m
     double led_out;                 ///< of which it is led out of the solid, m
-    Vec3 solid_move;                ///< in the substep, m
+    Vec3 solid_move;                ///< in the substep if nothing bends its way, m
     double holds;                   ///< at most, by friction, N
     double sliding;                 ///< along the surface in the substep, if it goes on as before, m
     double stiffness = 0;           ///< N/m
@@ -54,8 +66,14 @@ class ContactConstraints {
     double force = 0;               ///< along the normal, N
     bool released = false;
   };
+  std::optional<int> body_of(std::size_t index, const Solid& solid, AttachedBodies<Real>& bodies);
+  static Vec3 move_of(const Constraint& c, kernels::Components<const Real> move,
+                      const AttachedBodies<Real>& bodies);
+
   std::vector<Constraint> constraints_, last_;
-  double seconds_ = 0;  ///< of the substep
+  std::vector<Touch> pressed_;
+  std::vector<std::size_t> yielding_;  ///< solid of each body, index
+  Substep substep_;
 };
 
 extern template class ContactConstraints<float>;

@@ -18,19 +18,18 @@ constexpr double kNoDirection = 1e-6;
 }  // namespace
 
 template <class Real>
-bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
-                                std::vector<Touch>& touches) {
+bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<Touch>& touches) {
   const std::size_t touches_before = touches.size();
-  bool met = stop_at_first(solids, impulses, touches);
+  bool met = stop_at_first(solids, touches);
   const Vec3 came = position_;
   std::vector<Found> found;  // one entry a solid
   for (int round = 0; round < kProjections; ++round) {
     bool moved = false;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-      const MovingSolid& moving = solids[i];
+      MovingSolid& moving = solids[i];
       if (!moving.shape.contains(position_)) continue;
       Surface surface = moving.shape.surface(position_);
-      const Vec3 held = lose_velocity(*moving.solid, surface.normal, impulses[i]);
+      const Vec3 held = lose_velocity(moving, surface.normal);
       if (!held.isZero(0)) {
         set_position(position_ - seconds_ * held);
         surface = moving.shape.surface(position_);
@@ -46,7 +45,7 @@ bool NodeContact<Real>::resolve(const std::vector<MovingSolid>& solids, std::vec
     touches.resize(touches_before);
     touches.push_back(touch(*solids[*still].solid));
     set_position(came);  // the solids have handed it to one another, sideways
-    hold_at(solids[*still], impulses[*still]);
+    hold_at(solids[*still]);
   } else {
     lead_out(solids, found);
   }
@@ -84,20 +83,16 @@ std::optional<std::size_t> NodeContact<Real>::pinching(const std::vector<Found>&
 /// Two solids cannot both be kept out of where they overlap: the node stays on this one's surface and goes
 /// with it, however deep it is in the others.
 template <class Real>
-void NodeContact<Real>::hold_at(const MovingSolid& still, Vec3& impulse) {
+void NodeContact<Real>::hold_at(MovingSolid& still) {
   const Surface surface = still.shape.surface(position_);
   put_on(still, surface);
-  const Vec3 velocity = particles_.velocity_at(row_, col_);
-  if (still.solid->yields) {
-    impulse += double(particles_.mass.at(row_, col_)) * (velocity - still.solid->velocity);
-  }
-  set_velocity(still.solid->velocity);
+  part_with(particles_.velocity_at(row_, col_) - still.velocity, still);
+  set_velocity(still.velocity);
 }
 
 /// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
 template <class Real>
-bool NodeContact<Real>::stop_at_first(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
-                                      std::vector<Touch>& touches) {
+bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches) {
   std::optional<Hit> first;
   std::size_t which = 0;
   Vec3 begin(0, 0, 0);  // of the way, as seen from the solid where it ends up
@@ -113,13 +108,13 @@ bool NodeContact<Real>::stop_at_first(const std::vector<MovingSolid>& solids, st
   }
   if (!first) return false;
 
-  const MovingSolid& moving = solids[which];
+  MovingSolid& moving = solids[which];
   const Vec3 way = position_ - begin, normal = first->normal;
   const double inward = way.dot(normal);
   const Vec3 along = way - inward * normal;
   const double slide = along.norm();
   const double held = slide > 0 ? std::min(1.0, std::max(0.0, -moving.solid->friction * inward) / slide) : 0;
-  lose_velocity(*moving.solid, normal, impulses[which]);
+  lose_velocity(moving, normal);
   const Vec3 end = begin + first->fraction * way + (1 - first->fraction) * (1 - held) * along;
   put_outside(moving.shape, end, normal, std::max(0.0, -moving.shape.surface(end).distance));
   touches.push_back(touch(*moving.solid));
@@ -127,20 +122,30 @@ bool NodeContact<Real>::stop_at_first(const std::vector<MovingSolid>& solids, st
 }
 
 /// Takes away the velocity, relative to the solid's, that points against `normal`, and what friction then
-/// takes of the rest, which is returned; `impulse` gets the momentum if the solid yields.
+/// takes of the rest, of which the node's share is returned.
 template <class Real>
-Vec3 NodeContact<Real>::lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse) {
+Vec3 NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal) {
   const Vec3 velocity = particles_.velocity_at(row_, col_);
-  const Vec3 relative = velocity - solid.velocity;
+  const Vec3 relative = velocity - moving.velocity;
   const double inward = relative.dot(normal);
   if (!(inward < 0)) return Vec3::Zero();
   const Vec3 stopped = inward * normal, sliding = relative - stopped;
-  const double speed = solid.friction > 0 ? sliding.norm() : 0.0;
-  Vec3 held = speed > 0 ? Vec3(std::min(1.0, -solid.friction * inward / speed) * sliding) : Vec3(0, 0, 0);
-  const Vec3 lost = stopped + held, kept = velocity - lost;
-  set_velocity(kept);
-  if (solid.yields) impulse += double(particles_.mass.at(row_, col_)) * lost;
-  return held;
+  const double speed = moving.solid->friction > 0 ? sliding.norm() : 0.0;
+  Vec3 held =
+      speed > 0 ? Vec3(std::min(1.0, -moving.solid->friction * inward / speed) * sliding) : Vec3(0, 0, 0);
+  const double share = part_with(stopped + held, moving);
+  set_velocity(velocity - share * (stopped + held));
+  return share * held;
+}
+
+/// The solid takes up the momentum of a velocity `lost` between the two, so that this loss is shared by their
+/// inverse masses. Returns the node's share: all of it, to the bit, where the solid does not yield.
+template <class Real>
+double NodeContact<Real>::part_with(const Vec3& lost, MovingSolid& moving) {
+  const double ratio = double(particles_.mass.at(row_, col_)) * moving.solid->inverse_mass;
+  const double share = 1 / (1 + ratio);
+  if (ratio > 0) moving.velocity += ratio * share * lost;
+  return share;
 }
 
 /// Overlapping solids hand a node to each other. All are convex: along one ray none is entered twice, if the

@@ -11,6 +11,7 @@ struct MovingSolid {
   PlacedShape shape;  ///< at the substep's end
   Vec3 move;          ///< of its centre in the substep, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
+  Vec3 velocity;      ///< with what the nodes so far gave it, m/s
   Substep substep;
 };
 
@@ -34,14 +35,12 @@ class NodeContact {
         seconds_(seconds) {}
 
   /// Brings the node out of all solids (pinched between two it stays with the one that moves least), and back
-  /// from beyond those it passed through; `impulses`, by solid, get what it gives them, `touches` what it
-  /// met. False if it met none.
-  bool resolve(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
-               std::vector<Touch>& touches);
+  /// from beyond those it passed through; those that yield get what it gives them, `touches` what it met.
+  /// False if it met none.
+  bool resolve(std::vector<MovingSolid>& solids, std::vector<Touch>& touches);
 
  private:
-  bool stop_at_first(const std::vector<MovingSolid>& solids, std::vector<Vec3>& impulses,
-                     std::vector<Touch>& touches);
+  bool stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches);
   /// A solid the node was found in.
   struct Found {
     std::size_t solid;
@@ -50,8 +49,9 @@ class NodeContact {
   static void note(std::vector<Found>& found, std::size_t solid, const Vec3& normal);
   static std::optional<std::size_t> pinching(const std::vector<Found>& found,
                                              const std::vector<MovingSolid>& solids);
-  void hold_at(const MovingSolid& still, Vec3& impulse);
-  Vec3 lose_velocity(const Solid& solid, const Vec3& normal, Vec3& impulse);
+  void hold_at(MovingSolid& still);
+  Vec3 lose_velocity(MovingSolid& moving, const Vec3& normal);
+  double part_with(const Vec3& lost, MovingSolid& moving);
   bool put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
   void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);

@@ -9,20 +9,32 @@ namespace weft {
 using ColliderId = std::uint32_t;
 inline constexpr ColliderId kFirstObstacle = 0x8000'0000;
 
-/// What the cloths meet in a step: a shape on a straight way.
+/// What a cloth meets in a step: a shape on a straight way. One that yields is the cloth's own copy: what the
+/// cloth gives it bends the way.
 struct Solid {
   ColliderId id = 0;
   Shape shape;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  double friction = 0;  ///< Coulomb's coefficient
-  bool yields = false;  ///< takes up what the cloths give it
+  double friction = 0;      ///< Coulomb's coefficient
+  double inverse_mass = 0;  ///< 1/kg; 0: nothing moves it but itself
   /// Steps, this one counted, within which nodes that it was put onto are led out: pushed out at once they
   /// would fly off. 0: at once, as nothing can have come inside but by rounding.
   int steps_to_clear = 0;
   Vec3 start{0, 0, 0};     ///< centre at the step's start, m
   Vec3 position{0, 0, 0};  ///< at its end, m
-  Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s
+  Vec3 velocity{0, 0, 0};  ///< along the way, m/s
 
+  /// Takes up what the cloth gives it.
+  bool yields() const { return inverse_mass > 0; }
+  /// From `fraction` of a step of `dt` seconds on it has this velocity; unless that is not finite, as it is
+  /// in a step that is going to be taken back.
+  void go_on(const Vec3& with, double fraction, double dt) {
+    if (!with.allFinite()) return;
+    const Vec3 place = at(fraction);
+    velocity = with;
+    start = place - fraction * dt * velocity;
+    position = place + (1 - fraction) * dt * velocity;
+  }
   /// Centre at `fraction` (0..1) of the step.
   Vec3 at(double fraction) const { return start + fraction * (position - start); }
   PlacedShape placed(double fraction) const { return {shape, at(fraction), rotation}; }

@@ -9,8 +9,9 @@ namespace {
 
 /// Newton iterations added at most when those asked for bring in energy. Half a turn a frame takes one.
 constexpr int kSpareIterations = 8;
-/// A linearisation off by more than this share of the motion's energy is made again. Smooth motion never is.
-constexpr double kRough = 0.05;
+/// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
+/// not.
+constexpr double kRough = 0.2;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
 /// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
@@ -72,7 +73,7 @@ Implicit<Real>::State::State(const Grid& grid, bool has_bending)
 
 template <class Real>
 AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                                      const std::vector<Solid>& solids, double time, double dt) {
+                                      std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = parameters_.substeps;
   const double h = dt / parameters_.substeps;
@@ -83,9 +84,11 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
     if (contact != nullptr) {
-      contacts.begin(contact->expect(particles, solids, part), particles, solids, part);
+      contacts.begin(contact->expect(particles, solids, part), contact->foresee(particles, solids, part),
+                     particles, solids, part, state_->system.bodies());
     } else {
       contacts.clear();
+      state_->system.bodies().clear();
     }
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.carry_pins(particles, forces.context.time);
@@ -94,9 +97,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (contact != nullptr) {
-      contacts.finish(state_->move, solids, contact->impulses());
+      const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
       report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
+      report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     end_substep(particles, contact, h);
@@ -166,7 +170,8 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
     kernels::assemble_system<Real>(mass, finest.free(), s.step, iterate, finest.diagonal(), s.b, count);
   }
   if (!s.contacts.empty()) {
-    s.contacts.add_to(finest.matrix.blocks, s.b, finest.diagonal(), forces.springs->node_stiffness(), s.move);
+    s.contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
+                      forces.springs->node_stiffness(), s.move);
   }
   s.system.prepare();
 }
@@ -203,6 +208,7 @@ void Implicit<Real>::guess_move(double h) {
   State& s = *state_;
   const std::size_t count = s.system.grid().size();
   clear(s.move, count);
+  s.system.bodies().reset();
   kernels::scaled_difference<Real>(kernels::components(s.start_velocity), s.move, static_cast<Real>(h),
                                    s.change, count);
 }
@@ -218,7 +224,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const LinearSolveReport solved =
         s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
     s.target = {.least = solved.target};
-    const ChangeReport changed = (this->*change)(*forces.springs, solved.decrease);
+    const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
+    const ChangeReport changed = (this->*change)(*forces.springs, decrease);
+    s.system.bodies().take_changes();
     kernels::move_nodes<Real>(
         s.step,
         {s.system.finest().free(), kernels::components(s.start), s.change, s.move,
@@ -227,9 +235,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     clear(s.change, count);
     report.linear_iterations += solved.iterations;
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
-    const bool found = changed.taken || solved.decrease <= kMissedShare * s.scale;
+    const bool found = changed.taken || decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
-    const bool pulled = s.contacts.release_pulling(s.move) > solved.target;
+    const bool pulled = s.contacts.release_pulling(s.move, s.system.bodies()) > solved.target;
     if (report.brought_in <= 0 && !pulled &&
         (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
       break;
@@ -255,8 +263,10 @@ auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrea
       std::transform(component, component + state_->system.grid().size(), component,
                      [](Real x) { return x / 2; });
     }
+    state_->system.bodies().scale_changes(0.5);
   }
   clear(change, state_->system.grid().size());
+  state_->system.bodies().scale_changes(0);
   return {0, 0, false};
 }
 

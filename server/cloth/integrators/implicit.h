@@ -30,7 +30,7 @@ class Implicit final : public Integrator<Real> {
       : name_(name), parameters_(parameters), second_order_(second_order) {}
   const char* name() const override { return name_; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                        const std::vector<Solid>& solids, double time, double dt) override;
+                        std::vector<Solid>& solids, double time, double dt) override;
   void restart() override { state_.reset(); }
 
  private:

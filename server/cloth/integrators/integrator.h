@@ -47,10 +47,10 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual const char* name() const = 0;
-  /// From `time` to `time + dt`. `contact` is nullptr when there are no solids; it and `solids` have begun
-  /// the step.
+  /// From `time` to `time + dt`. `contact` is nullptr when there are no solids; `solids` have begun the step,
+  /// and those that yield are left as the cloth moves them.
   virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                                const std::vector<Solid>& solids, double time, double dt) = 0;
+                                std::vector<Solid>& solids, double time, double dt) = 0;
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
 };

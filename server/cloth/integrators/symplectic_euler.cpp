@@ -44,8 +44,8 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 
 template <class Real>
 AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
-                                             Contact<Real>* contact, const std::vector<Solid>& solids,
-                                             double time, double dt) {
+                                             Contact<Real>* contact, std::vector<Solid>& solids, double time,
+                                             double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
   const double squared_frequency = forces.springs->max_squared_frequency(particles.mass);

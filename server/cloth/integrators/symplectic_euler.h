@@ -17,7 +17,7 @@ class SymplecticEuler final : public Integrator<Real> {
   explicit SymplecticEuler(const SymplecticEulerDescription& description) : description_(description) {}
   const char* name() const override { return SymplecticEulerDescription::kName; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                        const std::vector<Solid>& solids, double time, double dt) override;
+                        std::vector<Solid>& solids, double time, double dt) override;
 
  private:
   SymplecticEulerDescription description_;

@@ -29,7 +29,7 @@ void make_acceleration(Particles<Real>& particles, double h) {
 
 template <class Real>
 AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                                  const std::vector<Solid>& solids, double time, double dt) {
+                                  std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = description_.substeps;
   const double h = dt / report.substeps;

@@ -22,7 +22,7 @@ class Xpbd final : public Integrator<Real> {
   explicit Xpbd(const XpbdDescription& description) : description_(description) {}
   const char* name() const override { return XpbdDescription::kName; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
-                        const std::vector<Solid>& solids, double time, double dt) override;
+                        std::vector<Solid>& solids, double time, double dt) override;
   void restart() override { force_ = {}; }
 
  private:

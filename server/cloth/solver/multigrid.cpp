@@ -132,9 +132,10 @@ void Multigrid<Real>::coarsen(Fine& fine, Coarse& coarse) {
 
 template <class Real>
 double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) {
-  return finest_.bands.sum([&](kernels::RowRange rows, int band) {
+  const double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
     return kernels::multiply(finest_.matrix, x, y, rows, work(band));
   });
+  return bodies_.empty() ? product : product + bodies_.multiply(x, y);
 }
 
 template <class Real>

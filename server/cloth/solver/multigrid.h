@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cloth/bands.h"
+#include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
 
@@ -31,6 +32,7 @@ struct GridLevel {
 /// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
+/// Bodies may hang on the nodes: they are part of A, but not of the preconditioner.
 template <class Real>
 class Multigrid {
  public:
@@ -43,6 +45,7 @@ class Multigrid {
   /// To be written before prepare(): the finest links, diagonal, free nodes and, if it is to have any,
   /// blocks. Zero at first.
   GridLevel<Real, kernels::SpringLinks<Real>>& finest() { return finest_; }
+  AttachedBodies<Real>& bodies() { return bodies_; }
   /// Builds the coarse matrices and all that a cycle needs.
   void prepare();
 
@@ -64,6 +67,7 @@ class Multigrid {
                kernels::Components<Real> z);
 
   GridLevel<Real, kernels::SpringLinks<Real>> finest_;
+  AttachedBodies<Real> bodies_;
   std::vector<Coarse> coarse_;  ///< fine to coarse
   std::optional<CoarseSolver<Real>> coarsest_;
   std::size_t work_size_;  ///< of a band

@@ -91,17 +91,21 @@ TEST(Colliders, AThrownBallFallsLikeEquation6) {
 }
 
 TEST(Colliders, ADynamicBallTakesUpItsImpulse) {
-  // 0.5 N s on 2 kg: 0.25 m/s, from the next step on; once.
+  // 0.5 N s on 2 kg: 0.25 m/s; once. And where it was pushed to.
   BallDescription description = resting_ball({0, 0, 0});
   description.motion = BallDescription::Motion::dynamic;
   description.mass = 2;
   description.velocity = {1, 0, 0};
   Colliders colliders({description});
   colliders.begin_step(0.0, kDt, {0, 0, 0});
-  colliders.push({{0, 0, 0.25}});
-  colliders.push({{0, 0, 0.25}});  // another cloth
+  std::vector<Solid> left = colliders.solids();
+  left[0].go_on({1, 0, 0.25 * left[0].inverse_mass}, 0.5, kDt);
+  colliders.push(left);
+  colliders.push(left);                // another cloth
+  colliders.push(colliders.solids());  // one that does not touch it
   colliders.end_step();
-  EXPECT_EQ(colliders.balls()[0].impulse, Vec3(0, 0, 0));
+  EXPECT_EQ(colliders.balls()[0].position, Vec3(kDt, 0, 0.25 * kDt / 2));
+  EXPECT_EQ(colliders.solids()[0].position, colliders.balls()[0].position);
   for (int step = 1; step <= 2; ++step) {
     colliders.begin_step(step * kDt, kDt, {0, 0, 0});
     EXPECT_EQ(colliders.balls()[0].velocity, Vec3(1, 0, 0.25));
@@ -109,14 +113,31 @@ TEST(Colliders, ADynamicBallTakesUpItsImpulse) {
   }
 }
 
-TEST(Colliders, AKinematicBallDoesNotFeelTheCloth) {
-  Colliders colliders({resting_ball({0, 0, 0})});
-  colliders.begin_step(0.0, kDt, {0, 0, 0});
-  colliders.push({{0, 0, 5}});
+TEST(Colliders, ClothsThatTouchABallShareItsMass) {
+  // 2 kg at 1 m/s that two cloths each bring to rest, as 1 kg each: together they take 2 N s, and it stops.
+  BallDescription description = resting_ball({0, 0, 0});
+  description.motion = BallDescription::Motion::dynamic;
+  description.mass = 2;
+  description.velocity = {1, 0, 0};
+  Colliders colliders({description});
+  colliders.begin_step(0, kDt, {0, 0, 0});
+  EXPECT_EQ(colliders.solids()[0].inverse_mass, 1 / 2.0);
+  colliders.share(1, 2);
+  EXPECT_EQ(colliders.solids()[0].inverse_mass, 2 / 2.0);
+  std::vector<Solid> left = colliders.solids();
+  left[0].go_on({0, 0, 0}, 0, kDt);
+  for (int cloth = 0; cloth < 2; ++cloth) colliders.push(left);
   colliders.end_step();
-  colliders.begin_step(kDt, kDt, {0, 0, 0});
   EXPECT_EQ(colliders.balls()[0].velocity, Vec3(0, 0, 0));
   EXPECT_EQ(colliders.balls()[0].position, Vec3(0, 0, 0));
+  colliders.begin_step(kDt, kDt, {0, 0, 0});
+  EXPECT_EQ(colliders.solids()[0].inverse_mass, 1 / 2.0);
+}
+
+TEST(Colliders, AKinematicBallDoesNotYield) {
+  Colliders colliders({resting_ball({0, 0, 0})});
+  colliders.begin_step(0.0, kDt, {0, 0, 0});
+  EXPECT_FALSE(colliders.solids()[0].yields());
 }
 
 TEST(Colliders, APathIsLinearBetweenItsPointsAndRestsOutside) {

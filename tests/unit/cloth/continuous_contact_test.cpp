@@ -49,7 +49,6 @@ TYPED_TEST(ContinuousContact, ABallOf200MetresASecondCarriesEveryNodeInItsWay) {
   const Particles<TypeParam> before = sheet;
   std::vector<Solid> solids{moving_ball(kRadius, {0.02, 0.03, -1.7}, {0, 0, 200})};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   contact.resolve(sheet, solids, {0, 1, kFrame});
   int carried = 0;
   each_node(sheet.grid(), [&](int r, int c) {
@@ -81,7 +80,6 @@ TYPED_TEST(ContinuousContact, FrictionTakesThemAlong) {
   std::vector<Solid> solids{moving_ball(kRadius, {0, 0, -1.7}, {0, 0, 200})};
   solids[0].friction = 1e6;
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   contact.resolve(sheet, solids, {0, 1, kFrame});
   each_node(sheet.grid(), [&](int r, int c) {
     const Vec3 place = before.position_at(r, c);
@@ -104,7 +102,6 @@ TYPED_TEST(ContinuousContact, ANodeShotThroughABoardStopsAtIt) {
   board.shape = Box{{0.5, 0.01, 0.5}};
   std::vector<Solid> solids{board};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   contact.resolve(sheet, solids, {0, 1, kFrame});
   // It keeps its 3 m/s along the board.
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.01, 0.2)).norm(), this->kRounding);
@@ -119,7 +116,6 @@ TYPED_TEST(ContinuousContact, WaysAreTakenFromTheStartsWhereTheyAreGiven) {
   set(sheet.position, 4, 4, {0, 0, -2});
   std::vector<Solid> solids{moving_ball(0.5, {0, 0, 0}, {0, 0, 0})};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}, &start), 1);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0, 0, 0.5)).norm(), this->kRounding);
 }
@@ -132,7 +128,6 @@ TYPED_TEST(ContinuousContact, WhatFliesTogetherDoesNotMeet) {
   const double last = -100 * kFrame - 0.3;
   std::vector<Solid> solids{moving_ball(0.2, {0, 0, last}, {0, 0, 100})};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 0);
   EXPECT_TRUE(test::same_state(sheet, before));
 }
@@ -142,7 +137,6 @@ TYPED_TEST(ContinuousContact, AFloorHoldsEveryNode) {
   each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {2, -1, 0}); });
   std::vector<Solid> solids{floor_at(-0.5, 0.25)};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 8 * 33);  // rows below: (33 - 1) / 4
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_GE(sheet.position_at(r, c).y(), -0.5);
@@ -165,7 +159,6 @@ TYPED_TEST(ContinuousContact, ANodePinchedBetweenBallAndFloorStaysOnTheFloor) {
   const Vec3 down(0, -1, 0);
   std::vector<Solid> solids{moving_ball(0.3, Vec3(0.01, 0.25, 0.02) - kFrame * down, down), floor_at(0)};
   Contact<TypeParam> contact(sheet.grid());
-  contact.begin_step(solids);
   contact.resolve(sheet, solids, {0, 1, kFrame});
   int pinched = 0;
   each_node(sheet.grid(), [&](int r, int c) {

@@ -2,6 +2,7 @@
 // symmetry and strength.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 
 #include "cloth/solver/conjugate_gradients.h"
@@ -17,6 +18,7 @@ struct Case {
   int rows, cols;
   double bending;
   bool blocks;
+  int bodies = 0;  ///< attached
 };
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
@@ -57,8 +59,51 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       blocks.yz[i] = block(1, 2);
       blocks.zz[i] = block(2, 2);
     });
+    if (GetParam().bodies > 0) attach_bodies(random);
     system_.prepare();
     assemble(position);
+  }
+
+  /// Each hangs on a patch of 4 x 4 nodes that overlaps with the one before; the first is light, the next
+  /// ones heavy.
+  template <class Random>
+  void attach_bodies(Random& random) {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto vector = [&] {
+      const double x = uniform(random), y = uniform(random), z = uniform(random);
+      return Vec3(x, y, z);
+    };
+    AttachedBodies<double>& bodies = system_.bodies();
+    const int count = 3 * GetParam().bodies;
+    coupling_ = Eigen::MatrixXd::Zero(count, unknowns_);
+    own_ = Eigen::MatrixXd::Zero(count, count);
+    pull_ = Eigen::VectorXd::Zero(count);
+    for (int body = 0; body < GetParam().bodies; ++body) {
+      const double inertia = body == 0 ? 1e-3 : 1e3;
+      bodies.add(inertia);
+      own_.block<3, 3>(3 * body, 3 * body) += inertia * Eigen::Matrix3d::Identity();
+    }
+    bodies.detach();
+    for (int body = 0; body < GetParam().bodies; ++body) {
+      for (int node = 0; node < 16; ++node) {
+        const int r = 3 + node / 4, c = 4 + 2 * body + node % 4;
+        const Vec3 n = vector().normalized(), force = vector();
+        const Eigen::Matrix3d k = 80 * n * n.transpose() + 20 * Eigen::Matrix3d::Identity();
+        bodies.attach(body, grid_.index(r, c), k, force);
+        coupling_.block<3, 3>(3 * body, 3 * (r * grid_.cols + c)) += k;
+        own_.block<3, 3>(3 * body, 3 * body) += k;
+        pull_.segment<3>(3 * body) -= force;
+        const auto& blocks = system_.finest().matrix.blocks;
+        const std::size_t i = grid_.index(r, c);
+        blocks.xx[i] += k(0, 0);
+        blocks.xy[i] += k(0, 1);
+        blocks.xz[i] += k(0, 2);
+        blocks.yy[i] += k(1, 1);
+        blocks.yz[i] += k(1, 2);
+        blocks.zz[i] += k(2, 2);
+      }
+    }
+    bodies.eliminate(vectors_.vector(3));
   }
 
   static Material material() {
@@ -99,7 +144,8 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       dense.middleRows(k, 3).setZero();
       dense.middleCols(k, 3).setZero();
     });
-    reference_ = dense;
+    nodes_alone_ = reference_ = dense;
+    if (GetParam().bodies > 0) reference_ -= coupling_.transpose() * own_.inverse() * coupling_;
   }
 
   /// Random, 0 at the fixed nodes.
@@ -141,7 +187,9 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
   Multigrid<double> system_;
   int unknowns_;
   NodeArrays<double> vectors_;
-  Eigen::MatrixXd reference_;
+  Eigen::MatrixXd reference_;                     ///< of the nodes, the bodies eliminated
+  Eigen::MatrixXd nodes_alone_, coupling_, own_;  ///< the whole: [nodes_alone, -coupling^T; -coupling, own]
+  Eigen::VectorXd pull_;                          ///< on the bodies
 };
 
 TEST_P(LinearSystem, MatrixIsTheSpringsOwn) {
@@ -194,12 +242,48 @@ TEST_P(LinearSystem, UnfinishedSolutionLosesEnergy) {
   }
 }
 
+// Nodes and bodies together, by LU of the whole system.
+TEST_P(LinearSystem, BodiesMoveAsTheWholeSystemSays) {
+  const int count = 3 * GetParam().bodies;
+  const int all = unknowns_ + count;
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(all, all);
+  whole.topLeftCorner(unknowns_, unknowns_) = nodes_alone_;
+  if (count > 0) {
+    whole.topRightCorner(unknowns_, count) = -coupling_.transpose();
+    whole.bottomLeftCorner(count, unknowns_) = -coupling_;
+    whole.bottomRightCorner(count, count) = own_;
+  }
+  for (int k = 0; k < unknowns_; ++k) whole(k, k) += whole(k, k) == 0 ? 1 : 0;  // fixed: 1 x = 0
+  Eigen::VectorXd right(all);
+  right.head(unknowns_) = random_vector(8);
+  if (count > 0) right.tail(count) = pull_;
+  const Eigen::VectorXd expected = whole.partialPivLu().solve(right);
+
+  AttachedBodies<double>& bodies = system_.bodies();
+  const auto b = vectors_.vector(3), x = vectors_.vector(6);
+  put(right.head(unknowns_), b);
+  put(Eigen::VectorXd::Zero(unknowns_), x);
+  bodies.eliminate(b);
+  ConjugateGradients<double> solver(grid_);
+  const LinearSolveReport report = solver.solve(system_, b, x, {.least = 1e-24}, 500);
+  const double decrease = report.decrease + bodies.find_changes(x);
+  EXPECT_TRUE(report.converged);
+  // As above for the nodes alone; the light body's moves are as large as its nodes', of about 0.1 m.
+  EXPECT_LT((take(x) - expected.head(unknowns_)).cwiseAbs().maxCoeff(), 1e-10);
+  bodies.take_changes();
+  for (int body = 0; body < GetParam().bodies; ++body) {
+    EXPECT_LT((bodies.move(body) - expected.segment<3>(unknowns_ + 3 * body)).norm(), 1e-10) << body;
+  }
+  EXPECT_NEAR(decrease, right.dot(expected) / 2, 1e-9 * decrease);
+}
+
 INSTANTIATE_TEST_SUITE_P(Grids, LinearSystem,
                          ::testing::Values(Case{"square", 17, 17, 0, false},
                                            Case{"bending", 17, 17, 50, false},
                                            Case{"blocks", 17, 17, 50, true}, Case{"wide", 9, 33, 50, true},
                                            Case{"odd", 13, 25, 0, false}, Case{"tall", 33, 5, 50, false},
-                                           Case{"cannot_coarsen", 8, 6, 0, true}),
+                                           Case{"cannot_coarsen", 8, 6, 0, true},
+                                           Case{"bodies", 17, 17, 50, true, 2}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 /// Iterations to reduce a flat hung sheet's error a millionfold in energy.
