@@ -4,13 +4,12 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/problems.h"
 #include "scene/scene.h"
 
 namespace weft::cli {
 namespace {
-
-constexpr int kBadScene = 1;
 
 struct CheckOptions {
   std::string scene;
@@ -48,7 +47,7 @@ int list_presets() {
     const scene::Result result = scene::parse(preset.text, preset.name);
     if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
       print_problems(std::string(preset.name), *problems);
-      exit_code = kBadScene;
+      exit_code = kFailed;
       continue;
     }
     const auto& scene = std::get<scene::Scene>(result);
@@ -62,7 +61,7 @@ int check(const CheckOptions& options) {
   const scene::Result result = scene::load(options.scene, options.overrides);
   if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
     print_problems(options.scene, *problems);
-    return kBadScene;
+    return kFailed;
   }
   print_summary(std::get<scene::Scene>(result));
   return 0;

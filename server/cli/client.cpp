@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/mesh_writer.h"
+#include "cloth/clock.h"
 #include "net/client.h"
 #include "protocol/frame.h"
 #include "protocol/message.h"
@@ -20,11 +22,9 @@
 namespace weft::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 using nlohmann::json;
 
-constexpr int kFailed = 1;
 constexpr auto kConnectTime = std::chrono::seconds(5);
 /// How often the loop looks whether it was interrupted.
 constexpr auto kPoll = std::chrono::milliseconds(200);

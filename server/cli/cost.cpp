@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/problems.h"
 #include "cli/progress.h"
 #include "cli/writers/output_file.h"
@@ -21,9 +22,6 @@
 
 namespace weft::cli {
 namespace {
-
-constexpr int kBadUsage = 2;
-constexpr int kBadState = 3;
 
 struct CostOptions {
   std::string scene;

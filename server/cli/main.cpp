@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Weft: cloth simulation with view-dependent detail", "weft"};
@@ -17,11 +18,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    constexpr int kBadUsage = 2;
-    return app.exit(error) == 0 ? 0 : kBadUsage;  // 0: help was asked for
+    return app.exit(error) == 0 ? 0 : weft::cli::kBadUsage;  // 0: help was asked for
   } catch (const std::exception& error) {
     std::fprintf(stderr, "weft: %s\n", error.what());
-    return 1;
+    return weft::cli::kFailed;
   }
   return exit_code;
 }

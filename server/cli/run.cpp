@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/mesh_writer.h"
 #include "cli/problems.h"
 #include "cli/progress.h"
 #include "cli/stats_writer.h"
 #include "cli/threads.h"
+#include "cloth/clock.h"
 #include "cloth/simulation.h"
 #include "cloth/state_hash.h"
 #include "host/arithmetic.h"
@@ -20,9 +22,6 @@
 
 namespace weft::cli {
 namespace {
-
-constexpr int kBadUsage = 2;
-constexpr int kFrozen = 3;  ///< a cloth stands still at the end, as it could not be stepped
 
 struct RunOptions {
   std::string scene;
@@ -109,7 +108,6 @@ void choose_levels(const RunOptions& options, const scene::Scene& scene, Simulat
 }
 
 int run(const RunOptions& options) {
-  using Clock = std::chrono::steady_clock;
   scene::Result result = scene::load(options.scene, options.overrides);
   if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
     print_problems(options.scene, *problems);
@@ -152,7 +150,7 @@ int run(const RunOptions& options) {
   const auto& cloths = simulation.cloths();
   const bool frozen =
       std::any_of(cloths.begin(), cloths.end(), [](const Cloth<float>& cloth) { return cloth.frozen(); });
-  return frozen ? kFrozen : 0;
+  return frozen ? kBadState : 0;
 }
 
 }  // namespace

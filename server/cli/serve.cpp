@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/problems.h"
 #include "cli/threads.h"
 #include "host/host.h"
@@ -18,8 +19,6 @@ namespace weft::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kFailed = 1;
 
 struct ServeOptions {
   std::vector<std::string> scenes;

@@ -1,12 +1,12 @@
 #include "cloth/cloth.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "cloth/clock.h"
 #include "cloth/refine.h"
 
 namespace weft {
@@ -165,7 +165,6 @@ void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind& wind, double time,
                                    double dt) {
-  using Clock = std::chrono::steady_clock;
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && time < pins_.end_of_motion()) wake();
@@ -180,7 +179,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
       sleep_.stepped(guard_.speed(), particles_, solids);
       time_ = time + dt;
       nodes_in_contact_ = report.nodes_in_contact;
-      report.check_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      report.check_seconds = seconds(Clock::now() - begin);
       return report;
     }
     forget_attempt();

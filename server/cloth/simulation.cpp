@@ -1,23 +1,17 @@
 #include "cloth/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "cloth/clock.h"
 #include "cloth/diagnostics.h"
 #include "cloth/parallel.h"
 
 namespace weft {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// With fewer nodes in all a second thread hardly helps. Measured, two threads to one: two cloths of 9 x 9
 /// nodes 1.0 (symplectic Euler) and 1.1 times (BDF2), four 1.5 and 1.2, two of 17 x 17 1.6 and 1.4.
 constexpr int kNodesWorthHelp = 300;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 template <class Real>
 std::vector<Cloth<Real>> make_cloths(const SimulationDescription& description) {
@@ -62,7 +56,7 @@ void Simulation<Real>::step() {
   profile_ = StepProfile{};
 
   for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
-  profile_.levels = seconds_since(begin);
+  profile_.levels = seconds(Clock::now() - begin);
 
   colliders_.begin_step(time(), dt, gravity_);
   if (cloths_.size() > 1) share_balls(dt);
@@ -77,7 +71,7 @@ void Simulation<Real>::step() {
   ++steps_;
 
   collect_guard_events();
-  profile_.total = seconds_since(begin);
+  profile_.total = seconds(Clock::now() - begin);
 }
 
 template <class Real>

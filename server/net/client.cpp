@@ -26,7 +26,7 @@ using beast::error_code;
 namespace {
 
 constexpr auto kSendTime = std::chrono::seconds(10);
-constexpr auto kCloseTime = std::chrono::seconds(2);
+constexpr auto kGoodbyeTime = std::chrono::seconds(2);
 /// A frame of section 6's largest records, for a scene of many cloths.
 constexpr std::size_t kMessageBytes = 64 << 20;
 
@@ -205,7 +205,7 @@ void Client::close() {
   Impl& self = *impl_;
   std::optional<error_code> result;
   self.ws.async_close(websocket::close_code::normal, [&](error_code error) { result = error; });
-  if (!run_until(self.io, std::chrono::steady_clock::now() + kCloseTime,
+  if (!run_until(self.io, std::chrono::steady_clock::now() + kGoodbyeTime,
                  [&] { return result.has_value(); })) {
     beast::get_lowest_layer(self.ws).close();
     run_until(self.io, TimePoint::max(), [&] { return result.has_value(); });

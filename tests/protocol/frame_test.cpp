@@ -18,7 +18,7 @@ using test::bytes_of;
 using test::from_hex;
 using test::load;
 
-const json& vectors() {
+const json& frames() {
   static const json loaded = load("protocol/vectors/frames.json");
   return loaded;
 }
@@ -28,7 +28,7 @@ FrameStamp stamp_of(const json& expect) {
 }
 
 TEST(Frame, GoodVectorsDecodeToTheirValues) {
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : frames()["good"]) {
     SCOPED_TRACE(vector["name"].get<std::string>());
     const json& expect = vector["expect"];
     Frame frame;
@@ -68,7 +68,7 @@ TEST(Frame, GoodVectorsDecodeToTheirValues) {
 }
 
 TEST(Frame, BadVectorsAreRefusedWithTheirReason) {
-  for (const json& vector : vectors()["bad"]) {
+  for (const json& vector : frames()["bad"]) {
     SCOPED_TRACE(vector["name"].get<std::string>());
     Frame frame;
     std::string error;
@@ -85,8 +85,8 @@ TEST(Frame, VectorComputedByHand) {
     for (const std::string line : hand[part]) hex += line;
   }
   std::erase(hex, ' ');
-  EXPECT_EQ(vectors()["good"][0]["name"], "small");
-  EXPECT_EQ(vectors()["good"][0]["hex"], hex);
+  EXPECT_EQ(frames()["good"][0]["name"], "small");
+  EXPECT_EQ(frames()["good"][0]["hex"], hex);
 
   const std::array<float, 4> x{0, 1, 0, 1}, y{1, 1, 0, 0}, z{0, 0, 0, 255};
   const GridView grid{{x.data(), y.data(), z.data()}, 2, 2, 2, 1};
@@ -99,7 +99,7 @@ TEST(Frame, VectorComputedByHand) {
 // vector's payload.
 TEST(Frame, EncodingGivesTheVectorsBytes) {
   int whole_records = 0;
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : frames()["good"]) {
     const json& expect = vector["expect"];
     if (expect["cloths"].size() != 1 || vector["name"] == "far" || vector["name"] == "wide_groups") continue;
     SCOPED_TRACE(vector["name"].get<std::string>());
@@ -131,7 +131,7 @@ TEST(Frame, EncodingGivesTheVectorsBytes) {
 }
 
 TEST(Frame, BallsRecordGivesTheVectorsBytes) {
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : frames()["good"]) {
     if (vector["name"] != "balls_only" && vector["name"] != "no_balls") continue;
     Frame frame;
     std::string error;
@@ -143,7 +143,7 @@ TEST(Frame, BallsRecordGivesTheVectorsBytes) {
 }
 
 TEST(Frame, EveryBeginningOfAMessageIsRefused) {
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : frames()["good"]) {
     SCOPED_TRACE(vector["name"].get<std::string>());
     const auto bytes = from_hex(vector["hex"]);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -164,7 +164,7 @@ TEST(Frame, MutatedMessagesNeverBreakTheDecoder) {
   std::mt19937 random(20260101);
   const auto below = [&](std::size_t end) { return random() % end; };
   int accepted = 0, refused = 0;
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : frames()["good"]) {
     SCOPED_TRACE(vector["name"].get<std::string>());
     const auto original = from_hex(vector["hex"]);
     for (int i = 0; i < kMutations; ++i) {

@@ -14,7 +14,7 @@ using nlohmann::json;
 using test::from_hex;
 using test::load;
 
-const json& vectors() {
+const json& messages() {
   static const json loaded = load("protocol/vectors/messages.json");
   return loaded;
 }
@@ -50,7 +50,7 @@ void expect_same(const json& got, const json& wanted) {
 }
 
 TEST(Message, GoodVectorsMeanWhatTheySay) {
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : messages()["good"]) {
     const std::string text = vector["text"];
     SCOPED_TRACE(text);
     const auto parsed = parse_request(text);
@@ -61,7 +61,7 @@ TEST(Message, GoodVectorsMeanWhatTheySay) {
 
 // Each command written and read again is the same command.
 TEST(Message, WritingIsTheInverseOfReading) {
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : messages()["good"]) {
     SCOPED_TRACE(vector["text"].get<std::string>());
     const std::string once = to_text(std::get<Request>(parse_request(vector["text"].get<std::string>())));
     const auto again = parse_request(once);
@@ -71,7 +71,7 @@ TEST(Message, WritingIsTheInverseOfReading) {
 }
 
 TEST(Message, BadVectorsAreRefusedExactly) {
-  for (const json& vector : vectors()["bad"]) {
+  for (const json& vector : messages()["bad"]) {
     const std::string text = text_of(vector);
     SCOPED_TRACE(text);
     const auto parsed = parse_request(text);
@@ -162,7 +162,7 @@ TEST(Message, MutatedMessagesNeverBreakTheParser) {
   std::mt19937 random(20260102);
   const auto below = [&](std::size_t end) { return random() % end; };
   int accepted = 0, refused = 0;
-  for (const json& vector : vectors()["good"]) {
+  for (const json& vector : messages()["good"]) {
     const std::string original = vector["text"];
     SCOPED_TRACE(original);
     for (int i = 0; i < kMutations; ++i) {

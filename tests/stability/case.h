@@ -10,6 +10,8 @@
 
 namespace weft::stability {
 
+inline constexpr double kGravity = 9.81;  ///< m/s2
+
 enum class Method {
   explicit_fixed,    ///< the paper's: Eq. 6 at one fixed step, that of the ordinary sheet at this level
   symplectic_euler,  ///< Eq. 6 with as many substeps as the stiffest spring needs

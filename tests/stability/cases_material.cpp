@@ -7,8 +7,6 @@
 namespace weft::stability {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 /// Swings down from lying flat, held by two corners: each bears half of the weight.
 Case swung_down(std::string name, std::string what, double structural, double stretch) {
   const auto scene = [structural](const Setup& setup) {

@@ -6,8 +6,6 @@
 namespace weft::stability {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 /// A start position for the node at row r and column c, which the flat sheet has at `flat`.
 using Place = std::function<Vec3(int r, int c, const Vec3& flat)>;
 

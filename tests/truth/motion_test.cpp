@@ -9,8 +9,6 @@ namespace {
 using Motion = EveryMethod;
 INSTANTIATE_TEST_SUITE_P(Methods, Motion, ::testing::ValuesIn(kMethods), name_of_case);
 
-constexpr double kFrame = 1.0 / 60;
-
 /// A sheet that lies face down, without springs.
 Rig<double> falling_sheet(Method method, int substeps, const std::vector<EffectDescription>& effects,
                           double damping = 0) {

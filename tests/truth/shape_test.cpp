@@ -7,8 +7,6 @@ namespace {
 using Shape = EveryMethod;
 INSTANTIATE_TEST_SUITE_P(Methods, Shape, ::testing::ValuesIn(kMethods), name_of_case);
 
-constexpr double kFrame = 1.0 / 60;
-
 // T9: a sheet of 2 m hung by its top edge stretches by rho g L^2 / (2 Y), on any grid. XPBD with n substeps
 // of h adds g h^2 (N^2 - N - 1) / 2: each spring is projected once (Macklin, Storey, Lu, Terdiman, Chentanez,
 // Jeschke and Mueller 2019 show that the error falls with h^2; the sum over the rows is ours).

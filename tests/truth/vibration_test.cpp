@@ -86,7 +86,6 @@ TEST_P(Vibration, HangingStrip) {
 
 /// Share of its amplitude that a swinging strip has lost after `kPeriods` at 60 steps a second.
 constexpr int kPeriods = 10;
-constexpr double kFrame = 1.0 / 60;
 const int kStepsAPeriod = static_cast<int>(std::round(2 * std::numbers::pi / kStripFrequency / kFrame));
 
 double amplitude_lost(const IntegratorDescription& stepping, double amplitude) {

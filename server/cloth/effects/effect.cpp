@@ -10,7 +10,7 @@ namespace {
 
 /// Which class simulates which description.
 template <class Real>
-struct Maker {
+struct EffectMaker {
   using Made = std::unique_ptr<Effect<Real>>;
   Made operator()(const GravityEffect& e) const { return std::make_unique<Gravity<Real>>(e); }
   Made operator()(const DampingEffect& e) const { return std::make_unique<Damping<Real>>(e); }
@@ -34,7 +34,7 @@ std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<Effect
   std::vector<std::unique_ptr<Effect<Real>>> effects;
   effects.reserve(descriptions.size());
   for (const EffectDescription& description : descriptions) {
-    effects.push_back(std::visit(Maker<Real>{}, description));
+    effects.push_back(std::visit(EffectMaker<Real>{}, description));
   }
   return effects;
 }

@@ -1,8 +1,9 @@
 #include "cloth/integrators/implicit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+
+#include "cloth/clock.h"
 
 namespace weft {
 namespace {
@@ -19,9 +20,6 @@ constexpr double kSmallestShare = 1e-4;
 constexpr double kSlow = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
-
-using Clock = std::chrono::steady_clock;
-double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 template <class Real>
 void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {

@@ -9,7 +9,7 @@ namespace {
 
 /// Which class follows which description.
 template <class Real>
-struct Maker {
+struct IntegratorMaker {
   using Made = std::unique_ptr<Integrator<Real>>;
   Made operator()(const SymplecticEulerDescription& d) const {
     return std::make_unique<SymplecticEuler<Real>>(d);
@@ -47,7 +47,7 @@ double Forces<Real>::max_damping_rate(const Particles<Real>& particles) const {
 
 template <class Real>
 std::unique_ptr<Integrator<Real>> make_integrator(const IntegratorDescription& description) {
-  return std::visit(Maker<Real>{}, description);
+  return std::visit(IntegratorMaker<Real>{}, description);
 }
 
 template struct Forces<float>;

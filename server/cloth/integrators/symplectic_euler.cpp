@@ -1,17 +1,13 @@
 #include "cloth/integrators/symplectic_euler.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "cloth/clock.h"
 #include "cloth/kernels/node_kernels.h"
 
 namespace weft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 /// Eq. 6.
 template <class Real>

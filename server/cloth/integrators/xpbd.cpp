@@ -1,15 +1,12 @@
 #include "cloth/integrators/xpbd.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
+
+#include "cloth/clock.h"
 
 namespace weft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 /// From the velocities before the substep, which the accelerations hold, to the mean over the substep.
 template <class Real>

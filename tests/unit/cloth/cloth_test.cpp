@@ -14,9 +14,8 @@ namespace {
 
 using test::each_node;
 using test::get;
+using test::kFrame;
 using test::set;
-
-constexpr double kFrame = 1.0 / 60.0;
 
 Cloth<double> make(const ClothDescription& description, const std::vector<EffectDescription>& effects = {},
                    const SymplecticEulerDescription& stepping = {}, std::uint64_t seed = 1) {

@@ -13,7 +13,7 @@ using test::each_node;
 using test::get;
 using test::set;
 
-Solid ball_at(const Vec3& centre, double radius) {
+Solid solid_ball(const Vec3& centre, double radius) {
   Solid ball;
   ball.id = 1;
   ball.shape = Sphere{radius};
@@ -49,7 +49,7 @@ TYPED_TEST(Contacts, PushesANodeBackToTheSurfaceAndTakesTheVelocityIntoTheBall) 
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   const Vec3 n(0, 0.6, 0.8), t(0, 0.8, -0.6), along(1, 0, 0);
   set(sheet.velocity, 4, 4, along + 2 * t - 3 * n);
-  std::vector<Solid> balls{ball_at(-0.3 * n, 0.5)};
+  std::vector<Solid> balls{solid_ball(-0.3 * n, 0.5)};
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_LT((sheet.position_at(4, 4) - 0.2 * n).norm(), this->kRounding);  // centre + 0.5 n
@@ -59,7 +59,7 @@ TYPED_TEST(Contacts, PushesANodeBackToTheSurfaceAndTakesTheVelocityIntoTheBall) 
 TYPED_TEST(Contacts, KeepsAVelocityThatAlreadyLeaves) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {0.25, -0.5, 3});
-  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0, 0, -0.25}, 0.5)};
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_EQ(sheet.velocity_at(4, 4), Vec3(0.25, -0.5, 3));
@@ -70,7 +70,7 @@ TYPED_TEST(Contacts, TheVelocityThatCountsIsRelativeToTheBall) {
   // A resting node before a ball that comes up at 2 m/s: 2 m/s into the ball, so it leaves with the ball.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {0.5, 0, 0});
-  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0, 0, -0.25}, 0.5)};
   balls[0].velocity = {0, 0, 2};
   Contact<TypeParam> contact(sheet.grid());
   contact.resolve(sheet, balls, {0.0, 1.0});
@@ -85,7 +85,7 @@ TYPED_TEST(Contacts, TheVelocityThatCountsIsRelativeToTheBall) {
 TYPED_TEST(Contacts, UsesTheBallWhereItIsAtTheSubstepsEnd) {
   // From z = -2 m to 0 in the step: at half of it, -1 m, the ball of 0.9 m does not yet touch the sheet.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
-  std::vector<Solid> balls{ball_at({0, 0, 0}, 0.9)};
+  std::vector<Solid> balls{solid_ball({0, 0, 0}, 0.9)};
   balls[0].start = {0, 0, -2};
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 0.5}), 0);
@@ -97,7 +97,7 @@ TYPED_TEST(Contacts, UsesTheBallWhereItIsAtTheSubstepsEnd) {
 TYPED_TEST(Contacts, APinnedNodeStays) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   sheet.inverse_mass.at(4, 4) = 0;
-  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0, 0, -0.25}, 0.5)};
   balls[0].inverse_mass = 1;
   balls[0].velocity = {0, 0, 2};
   Contact<TypeParam> contact(sheet.grid());
@@ -110,7 +110,7 @@ TYPED_TEST(Contacts, APinnedNodeStays) {
 TYPED_TEST(Contacts, ANodeAtTheBallsCentreLeavesUpwards) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
   set(sheet.velocity, 4, 4, {1, -4, 0});
-  std::vector<Solid> balls{ball_at({0, 0, 0}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0, 0, 0}, 0.5)};
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0, 0.5, 0)).norm(), this->kRounding);
@@ -122,7 +122,7 @@ TYPED_TEST(Contacts, LeavesNoNodeInsideTheBall) {
   // missing.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
   test::randomise(sheet.position, -1, 1, 1);
-  std::vector<Solid> balls{ball_at({0.1, -0.05, 0.02}, 0.7)};
+  std::vector<Solid> balls{solid_ball({0.1, -0.05, 0.02}, 0.7)};
   const int inside = nodes_inside(sheet, balls[0], 0);
   ASSERT_GT(inside, 500);
   Contact<TypeParam> contact(sheet.grid());
@@ -133,7 +133,7 @@ TYPED_TEST(Contacts, LeavesNoNodeInsideTheBall) {
 
 TYPED_TEST(Contacts, TwoBallsPushTheirOwnNodes) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});  // nodes 1 m apart
-  std::vector<Solid> balls{ball_at({-2, 0, -0.25}, 0.5), ball_at({2, 1, 0.25}, 0.5)};
+  std::vector<Solid> balls{solid_ball({-2, 0, -0.25}, 0.5), solid_ball({2, 1, 0.25}, 0.5)};
   balls[1].id = 2;
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 2);
@@ -148,7 +148,7 @@ TYPED_TEST(Contacts, NodesThatTilesShareAreResolvedOnce) {
   sheet.mass.fill(TypeParam(0.5));
   sheet.inverse_mass.fill(2);
   set(sheet.velocity, 8, 8, {0, 0, -4});
-  std::vector<Solid> balls{ball_at({0, 0, -0.25}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0, 0, -0.25}, 0.5)};
   balls[0].inverse_mass = 2;
   Contact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, balls, {0.0, 1.0}), 1);
@@ -163,7 +163,7 @@ TYPED_TEST(Contacts, TheBallGetsTheMomentumTheClothLoses) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
   test::share_mass(sheet, 0.4, Discretization::continuum);
   test::randomise(sheet.velocity, -3, 3, 2);
-  std::vector<Solid> balls{ball_at({0.1, 0.1, -0.2}, 0.5)};
+  std::vector<Solid> balls{solid_ball({0.1, 0.1, -0.2}, 0.5)};
   balls[0].inverse_mass = 1 / kMass;
   balls[0].velocity = {0, 1, 2};
   const Vec3 before = linear_momentum(sheet) + kMass * balls[0].velocity;
@@ -180,7 +180,7 @@ TYPED_TEST(Contacts, TilesFarFromTheBallAreNeverExamined) {
   // tile, just touching the sheet's plane, lies 0.075 m from that tile's edge: one tile of 64, 9 x 9 of 4225
   // nodes.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
-  std::vector<Solid> balls{ball_at({0.125, 0.125, 0.04}, 0.05)};
+  std::vector<Solid> balls{solid_ball({0.125, 0.125, 0.04}, 0.05)};
   Contact<TypeParam> contact(sheet.grid());
   ASSERT_EQ(contact.broad_phase().tiles().size(), 64u);
   contact.resolve(sheet, balls, {0.0, 1.0});
@@ -189,12 +189,12 @@ TYPED_TEST(Contacts, TilesFarFromTheBallAreNeverExamined) {
   EXPECT_LE(contact.counters().nodes_tested, 81u);
 
   // Over a corner of four tiles: four more.
-  balls[0] = ball_at({0.25, 0.25, 0.04}, 0.05);
+  balls[0] = solid_ball({0.25, 0.25, 0.04}, 0.05);
   contact.resolve(sheet, balls, {0.0, 1.0});
   EXPECT_EQ(contact.counters().tiles_examined, 1u + 4u);
 
   // Out of reach: none, however often.
-  balls[0] = ball_at({0, 0, 0.5}, 0.05);
+  balls[0] = solid_ball({0, 0, 0.5}, 0.05);
   const std::uint64_t tested = contact.counters().nodes_tested;
   for (int i = 0; i < 100; ++i) contact.resolve(sheet, balls, {i / 100.0, (i + 1) / 100.0});
   EXPECT_EQ(contact.counters().tiles_examined, 5u);
@@ -263,7 +263,7 @@ TYPED_TEST(BroadPhasePairs, AreThoseOfTheBoxesThatOverlap) {
     });
     std::vector<Solid> balls(std::size_t(trial % 6));
     for (Solid& ball : balls) {
-      ball = ball_at(point(), size(random));
+      ball = solid_ball(point(), size(random));
       ball.start = point();
     }
     const double from = trial % 4 / 4.0, to = from + 0.25;
@@ -282,7 +282,7 @@ TYPED_TEST(BroadPhasePairs, AreThoseOfTheBoxesThatOverlap) {
 TYPED_TEST(BroadPhasePairs, SeeAFastBallAllAlongItsWay) {
   // From 5 m before the sheet to 5 m behind it in one step: neither end touches, the way between does.
   const Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(65, 65, {2, 2});
-  std::vector<Solid> balls{ball_at({0.125, 0.125, -5}, 0.05)};
+  std::vector<Solid> balls{solid_ball({0.125, 0.125, -5}, 0.05)};
   BroadPhase<TypeParam> broad_phase(sheet.grid());
   EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 1}).empty());
   balls[0].start = {0.125, 0.125, 5};
@@ -295,7 +295,7 @@ TYPED_TEST(BroadPhasePairs, FollowBallsThatComeAndGo) {
   BroadPhase<TypeParam> broad_phase(sheet.grid());
   std::vector<Solid> balls;
   EXPECT_TRUE(broad_phase.find_pairs(sheet.position, balls, {0, 1}).empty());
-  balls = {ball_at({-0.5, 0.5, 0}, 0.1), ball_at({0.5, 0.5, 0}, 0.1), ball_at({0.5, -0.5, 0}, 0.1)};
+  balls = {solid_ball({-0.5, 0.5, 0}, 0.1), solid_ball({0.5, 0.5, 0}, 0.1), solid_ball({0.5, -0.5, 0}, 0.1)};
   EXPECT_EQ(broad_phase.find_pairs(sheet.position, balls, {0, 1}).size(), 3u);
   balls.erase(balls.begin());
   const auto& pairs = broad_phase.find_pairs(sheet.position, balls, {0, 1});

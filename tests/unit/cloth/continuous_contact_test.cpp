@@ -9,9 +9,8 @@ namespace weft {
 namespace {
 
 using test::each_node;
+using test::kFrame;
 using test::set;
-
-constexpr double kFrame = 1.0 / 60;
 
 Solid moving_ball(double radius, const Vec3& start, const Vec3& velocity) {
   Solid ball;

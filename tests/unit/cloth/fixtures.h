@@ -24,6 +24,9 @@ inline std::ostream& operator<<(std::ostream& out, Discretization discretization
 
 namespace weft::test {
 
+/// The ordinary step, in s.
+inline constexpr double kFrame = 1.0 / 60;
+
 /// One node of a vector field, in double.
 template <class Real>
 Vec3 get(const VectorField<Real>& field, int r, int c) {
@@ -74,6 +77,14 @@ void share_mass(Particles<Real>& particles, double total, Discretization discret
   mass_distribution(total, discretization, particles.mass);
   each_node(particles.grid(),
             [&](int r, int c) { particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c); });
+}
+
+inline Material stiffnesses(double structural, double shear, double bending) {
+  Material material;
+  material.structural = structural;
+  material.shear = shear;
+  material.bending = bending;
+  return material;
 }
 
 /// A spring of a sheet, written out.

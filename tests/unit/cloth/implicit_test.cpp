@@ -16,10 +16,9 @@ namespace {
 
 using test::each_node;
 using test::get;
+using test::kFrame;
 using test::Rig;
 using test::set;
-
-constexpr double kFrame = 1.0 / 60.0;
 
 /// Solved to rounding, or nearly.
 template <class Description>

@@ -12,6 +12,8 @@
 namespace weft {
 namespace {
 
+using test::stiffnesses;
+
 /// Largest eigenvalue of M^-1/2 K M^-1/2, K summed spring by spring from spring_stiffness.
 double largest_eigenvalue(const Particles<double>& sheet, const std::vector<SpringFamily>& families) {
   const Grid grid = sheet.grid();
@@ -40,14 +42,6 @@ struct BoundCase {
   Vec2 size;
   Material material;
 };
-
-Material stiffnesses(double structural, double shear, double bending) {
-  Material material;
-  material.structural = structural;
-  material.shear = shear;
-  material.bending = bending;
-  return material;
-}
 
 std::ostream& operator<<(std::ostream& out, const BoundCase& sheet) { return out << sheet.name; }
 

@@ -15,14 +15,7 @@ using test::each_node;
 using test::flat_sheet;
 using test::get;
 using test::set;
-
-Material stiffnesses(double structural, double shear, double bending) {
-  Material material;
-  material.structural = structural;
-  material.shear = shear;
-  material.bending = bending;
-  return material;
-}
+using test::stiffnesses;
 
 const SpringFamily* find_family(const std::vector<SpringFamily>& families, int rows, int cols) {
   for (const SpringFamily& family : families) {

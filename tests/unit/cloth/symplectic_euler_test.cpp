@@ -14,10 +14,9 @@ namespace weft {
 namespace {
 
 using test::each_node;
+using test::kFrame;
 using test::Rig;
 using test::without_springs;
-
-constexpr double kFrame = 1.0 / 60.0;
 
 /// Node (r, 1) of 2 x 3 nodes 1 m apart is free to swing along x between two held ones, on springs of k each:
 /// m = 1 kg, w^2 = 2k. Both rows move alike, so the cross springs stay at rest.

@@ -13,10 +13,9 @@ namespace {
 using test::each_node;
 using test::get;
 using test::hung_rig;
+using test::kFrame;
 using test::Rig;
 using test::set;
-
-constexpr double kFrame = 1.0 / 60.0;
 
 // --- Stability ---
 

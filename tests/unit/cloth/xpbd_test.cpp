@@ -16,13 +16,12 @@ namespace {
 using test::each_node;
 using test::get;
 using test::hung_rig;
+using test::kFrame;
 using test::ListedSpring;
 using test::Rig;
 using test::set;
 using test::sheet_rig;
 using test::without_springs;
-
-constexpr double kFrame = 1.0 / 60.0;
 
 // --- The sweep ---
 
