@@ -55,8 +55,8 @@ class Colliders {
   /// So many cloths, at least 1, will touch the ball in the step that has begun. They are stepped side by
   /// side and know nothing of each other, and would all stop the same ball, and so throw it back: it is for
   /// each of them a ball of its share of the mass, and at the end the mean of these, which has their momentum
-  /// and at most their energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid
-  /// Body Simulation, 2012).
+  /// and at most their kinetic energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free
+  /// Parallel Rigid Body Simulation, 2012).
   void share(BallId id, int cloths);
   /// How one cloth leaves solids() at the step's end; the order of the calls decides the last bits.
   void push(const std::vector<Solid>& left);
