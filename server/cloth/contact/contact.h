@@ -1,6 +1,6 @@
 #pragma once
-#include <compare>
 #include <cstdint>
+#include <tuple>
 
 #include "cloth/contact/broad_phase.h"
 
@@ -35,7 +35,10 @@ struct Touch {
   std::size_t node = 0;  ///< index into the grid's arrays
   ColliderId collider = 0;
 
-  friend auto operator<=>(const Touch&, const Touch&) = default;
+  friend bool operator==(const Touch&, const Touch&) = default;
+  friend bool operator<(const Touch& a, const Touch& b) {
+    return std::tie(a.node, a.collider) < std::tie(b.node, b.collider);
+  }
 };
 
 /// A node on its way into a solid that yields.
