@@ -76,6 +76,7 @@ void Simulation<Real>::step() {
 
 template <class Real>
 void Simulation<Real>::share_balls(double dt) {
+  if (cloths_.size() < 2) return;  // there is nobody to share with
   for (const Solid& solid : colliders_.solids()) {
     if (!solid.yields()) continue;
     const auto meet = std::count_if(cloths_.begin(), cloths_.end(),

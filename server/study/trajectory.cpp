@@ -1,6 +1,7 @@
 #include "study/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "study/thread_time.h"
@@ -99,6 +100,9 @@ Trajectory simulate(SimulationDescription description, const RunPlan& plan, cons
   run.time_step = simulation.description().time_step;
   run.sheets = sheets_of(simulation);
   run.frames.push_back(frame_of(simulation));
+  // No number of substeps mends a start that is not finite.
+  run.sound = std::isfinite(run.frames[0].kinetic_energy + run.frames[0].potential_energy);
+  if (!run.sound) return run;
   for (int frame = 1; frame <= plan.frames; ++frame) {
     const double begin = thread_time();
     simulation.step();

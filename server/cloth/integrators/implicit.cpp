@@ -8,7 +8,8 @@
 namespace weft {
 namespace {
 
-/// Newton iterations added at most when those asked for bring in energy. Half a turn a frame takes one.
+/// Newton iterations added at most when those asked for are rough or bring in energy: half a turn a frame
+/// takes one, a crumpled sheet all.
 constexpr int kSpareIterations = 8;
 /// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
 /// not.

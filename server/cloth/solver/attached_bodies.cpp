@@ -2,23 +2,9 @@
 
 #include <Eigen/LU>
 
+#include "cloth/solver/node_vector.h"
+
 namespace weft {
-namespace {
-
-template <class Real>
-Vec3 at(const kernels::Components<const Real>& field, std::size_t i) {
-  return {double(field.x[i]), double(field.y[i]), double(field.z[i])};
-}
-
-template <class Real>
-void add(const kernels::Components<Real>& field, std::size_t i, const Vec3& value) {
-  field.x[i] += static_cast<Real>(value.x());
-  field.y[i] += static_cast<Real>(value.y());
-  field.z[i] += static_cast<Real>(value.z());
-}
-
-}  // namespace
-
 template <class Real>
 void AttachedBodies<Real>::clear() {
   bodies_.clear();
