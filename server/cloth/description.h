@@ -127,11 +127,12 @@ struct SymplecticEulerDescription {
 };
 /// The implicit methods: one linear system a Newton iteration, solved by multigrid conjugate gradients.
 struct ImplicitParameters {
-  int substeps = 1;           ///< per step, >= 1
-  double tolerance = 0.02;    ///< root of the energy that a substep's error may have, relative to the
-                              ///< motion's; (0, 1]
-  int newton_iterations = 2;  ///< linearisations a substep, >= 1: fewer when one is accurate enough, more
-                              ///< where the motion is rough or would gain energy
+  int substeps = 1;         ///< per step, >= 1
+  double tolerance = 0.02;  ///< root of the energy that a substep's error may have, relative to the
+                            ///< motion's; (0, 1]
+  /// Linearisations a substep, >= 1: fewer when one is accurate enough, more where the motion is rough or
+  /// would gain energy.
+  int newton_iterations = 2;
   int linear_iterations = 60;  ///< at most, a linear solve; >= 1
 };
 /// Backward Euler: first order, damps (T3 in the truths), the sturdiest.

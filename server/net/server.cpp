@@ -20,7 +20,6 @@ namespace weft::net {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
-using boost::system::error_code;
 
 namespace {
 
@@ -49,7 +48,7 @@ struct Server::Impl {
 void Server::Impl::listen() {
   const ServerOptions& options = context.options;
   const std::string where = options.host + ":" + std::to_string(options.port);
-  error_code error;
+  boost::system::error_code error;
   tcp::resolver resolver(io);
   const auto found = resolver.resolve(options.host, std::to_string(options.port),
                                       tcp::resolver::passive | tcp::resolver::numeric_service, error);
@@ -64,12 +63,12 @@ void Server::Impl::listen() {
 }
 
 void Server::Impl::accept() {
-  acceptor.async_accept([this](error_code error, tcp::socket socket) {
+  acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
     if (!acceptor.is_open()) return;
     if (error) {
       spdlog::warn("accept: {}", error.message());
       pause.expires_after(kAcceptPause);
-      pause.async_wait([this](error_code cancelled) {
+      pause.async_wait([this](boost::system::error_code cancelled) {
         if (!cancelled) accept();
       });
       return;
@@ -84,7 +83,7 @@ void Server::Impl::accept() {
 }
 
 void Server::Impl::wait_for_signal() {
-  signals.async_wait([this](error_code error, int signal) {
+  signals.async_wait([this](boost::system::error_code error, int signal) {
     if (error) return;
     if (context.stopping) std::_Exit(128 + signal);
     spdlog::info("signal {}: stopping", signal);
@@ -99,7 +98,7 @@ void Server::Impl::stop() {
   context.on_viewers_gone = [this] { io.stop(); };
   acceptor.close();
   pause.expires_after(kFarewellTime);
-  pause.async_wait([this](error_code) { io.stop(); });
+  pause.async_wait([this](boost::system::error_code) { io.stop(); });
   if (context.viewers.empty()) return io.stop();
   // A copy: a session that ends takes itself out of the set.
   const std::vector<WebsocketSession*> viewers(context.viewers.begin(), context.viewers.end());

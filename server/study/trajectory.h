@@ -34,9 +34,9 @@ struct Trajectory {
   std::vector<double> step_seconds;  ///< this thread's processor time of each step alone, which other
                                      ///< programs hardly disturb; nothing is kept or compared meanwhile
   int substeps = 0;                  ///< of the last step; the most of all cloths
-  bool sound = true;                 ///< false if the step guard had to step in or the start is not finite, which
-                                     ///< ends the run
-  bool complete = false;             ///< all frames asked for are here
+  bool sound = true;  ///< false if the start is not finite or the step guard had to step in, either of which
+                      ///< ends the run
+  bool complete = false;  ///< all frames asked for are here
 
   /// Median of step_seconds, ms; 0 without steps.
   double milliseconds_per_frame() const;

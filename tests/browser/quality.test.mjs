@@ -68,7 +68,7 @@ test('the next levels are told beside the present one', async () => {
   const {level} = await quality();
   for (const [id, other] of [['cost-up', level + 1], ['cost-down', level - 1]]) {
     const line = await text(id);
-    if (other < 3 || other > 5) assert.equal(line, '');
+    if (other < 3 || other > 4) assert.equal(line, '');
     else assert.match(line, new RegExp(`^Level ${other}: \\S+ × the time \\(\\S+ ms\\), .* instead of .*; steps .* % instead of .* %\\.$`));
   }
 });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <set>
 
 namespace weft::stability {
@@ -13,6 +14,24 @@ constexpr std::array kMethods{Method::explicit_fixed, Method::symplectic_euler, 
 std::vector<int> step_rates(Method method) {
   const bool is_explicit = method == Method::explicit_fixed || method == Method::symplectic_euler;
   return is_explicit ? std::vector<int>{60} : std::vector<int>{60, 30, 15};
+}
+
+constexpr int kFinest = 6;
+
+bool is_lowest(const HardRun& run) { return run.setup.level == run.hard_case->levels.front(); }
+
+/// The default integrator and XPBD, as a scene is stepped, but for cases of a day's length or of seconds of
+/// frames at level 6.
+bool is_usual(const HardRun& run) {
+  static const std::set<std::string> kSlow{"S13b", "S14", "S15"};
+  const bool chosen = run.setup.method == Method::bdf2 || run.setup.method == Method::xpbd;
+  return chosen && run.setup.hz == 60 && !kSlow.contains(run.hard_case->name);
+}
+
+std::vector<HardRun> chosen(const std::function<bool(const HardRun&)>& is_chosen) {
+  std::vector<HardRun> runs = all_runs();
+  std::erase_if(runs, std::not_fn(is_chosen));
+  return runs;
 }
 
 }  // namespace
@@ -36,15 +55,13 @@ std::vector<HardRun> all_runs() {
 }
 
 std::vector<HardRun> ci_runs() {
-  // A day's length or seconds of frames at level 6.
-  static const std::set<std::string> kSlow{"S13b", "S14", "S15"};
-  std::vector<HardRun> runs = all_runs();
-  std::erase_if(runs, [](const HardRun& run) {
-    if (run.setup.level == run.hard_case->levels.front()) return false;
-    const bool chosen = run.setup.method == Method::bdf2 || run.setup.method == Method::xpbd;
-    return !chosen || run.setup.hz != 60 || kSlow.contains(run.hard_case->name);
-  });
-  return runs;
+  return chosen(
+      [](const HardRun& run) { return is_lowest(run) || (is_usual(run) && run.setup.level < kFinest); });
+}
+
+std::vector<HardRun> finest_runs() {
+  return chosen(
+      [](const HardRun& run) { return !is_lowest(run) && is_usual(run) && run.setup.level == kFinest; });
 }
 
 }  // namespace weft::stability

@@ -1,5 +1,5 @@
 #pragma once
-/// Which runs there are: every case with every method, level and step rate it claims, and CI's part of them.
+/// Which runs there are: every case with every method, level and step rate it claims, and parts of them.
 #include <memory>
 #include <ostream>
 
@@ -20,8 +20,10 @@ inline void PrintTo(const HardRun& run, std::ostream* out) {
 
 /// All there are: explicit methods at 60 Hz, the others at 60, 30 and 15 Hz, at all of the case's levels.
 std::vector<HardRun> all_runs();
-/// CI's: level 4 (or the case's own lowest) in full; of levels 5 and 6 the default integrator and XPBD at 60
-/// Hz, but for the cases in which they take long.
+/// CI's: level 4 (or the case's own lowest) in full; of level 5 the default integrator and XPBD at 60 Hz, but
+/// for the cases in which they take long.
 std::vector<HardRun> ci_runs();
+/// The same two of level 6, twice as much work as all of CI's: with the nightly mode, but in CI's lengths.
+std::vector<HardRun> finest_runs();
 
 }  // namespace weft::stability

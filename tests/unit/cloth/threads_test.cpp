@@ -112,8 +112,8 @@ TEST(ParallelFor, SubnormalNumbersAreToAllWhatTheyAreToTheCaller) {
 
 // --- Simulations ---
 
-/// The thread sanitizer makes all this fifty times as slow.
-#if defined(__SANITIZE_THREAD__)
+/// Sanitizers make all this up to fifty times as slow.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 constexpr int kStackSteps = 15, kLargeSteps = 1;
 const std::vector<int> kThreads{4};
 #else
