@@ -176,7 +176,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
     const Verdict verdict = guard_.judge(particles_, report);
     if (verdict == Verdict::good) {
       if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
-      sleep_.stepped(guard_.speed(), particles_, solids);
+      sleep_.stepped(guard_.speed(), dt, particles_, solids);
       time_ = time + dt;
       nodes_in_contact_ = report.nodes_in_contact;
       report.check_seconds = seconds(Clock::now() - begin);

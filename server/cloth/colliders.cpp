@@ -18,10 +18,13 @@ Solid solid_of(const ObstacleDescription& obstacle, std::size_t index) {
   if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
     solid.shape = HalfSpace{};
     solid.rotation = Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane->normal).toRotationMatrix();
+  } else if (const auto* box = std::get_if<BoxDescription>(&obstacle.shape)) {
+    solid.shape = Box{box->size / 2};
+    solid.rotation = box->orientation.toRotationMatrix();
   } else {
-    const auto& box = std::get<BoxDescription>(obstacle.shape);
-    solid.shape = Box{box.size / 2};
-    solid.rotation = box.orientation.toRotationMatrix();
+    const auto& capsule = std::get<CapsuleDescription>(obstacle.shape);
+    solid.shape = Capsule{capsule.length / 2, capsule.radius};
+    solid.rotation = capsule.orientation.toRotationMatrix();
   }
   return solid;
 }

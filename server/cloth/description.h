@@ -110,9 +110,16 @@ struct BoxDescription {
   Quaternion orientation = Quaternion::Identity();  ///< local to world
   static constexpr const char* kName = "box";
 };
+/// All within `radius` of a stretch of its own y axis around `position`: an arm, a rail.
+struct CapsuleDescription {
+  double radius = 0.1;  ///< m, > 0
+  double length = 1.0;  ///< of the stretch, between its round ends' centres, m; > 0
+  Quaternion orientation = Quaternion::Identity();  ///< local to world
+  static constexpr const char* kName = "capsule";
+};
 /// Something that stands where it is; the cloth yields.
 struct ObstacleDescription {
-  std::variant<PlaneDescription, BoxDescription> shape;
+  std::variant<PlaneDescription, BoxDescription, CapsuleDescription> shape;
   Vec3 position{0.0, 0.0, 0.0};
   double friction = 0.0;  ///< as a ball's
 };
@@ -161,8 +168,8 @@ struct SimulationDescription {
   Wind wind;
   IntegratorDescription integrator = Bdf2Description{};
   double time_step = 1.0 / 60.0;  ///< s
-  /// A cloth whose nodes have all been slower for 60 steps, with nothing moving near it, sleeps: it is left
-  /// as it is until something comes (Sleep), m/s; 0: never.
+  /// A cloth none of whose nodes has got on faster for 60 steps, with nothing moving near it, sleeps: it is
+  /// left as it is until something comes (Sleep), m/s; 0: never.
   double sleep_speed = 1e-4;
   LevelPolicy level_policy;
   std::uint64_t seed = 1;

@@ -3,6 +3,9 @@
 namespace weft {
 namespace {
 
+/// A cloth this many times faster than the threshold is no longer watched, at 0.1 m/s by default.
+constexpr double kPlainlyMoving = 1000;
+
 template <class Real>
 Eigen::AlignedBox3d box_around(const Particles<Real>& particles, double margin) {
   Eigen::AlignedBox3d box;
@@ -27,14 +30,46 @@ bool Sleep::through(const std::vector<Solid>& solids, const Wind& wind) {
 }
 
 template <class Real>
-void Sleep::stepped(double speed, const Particles<Real>& particles, const std::vector<Solid>& solids) {
-  quiet_steps_ = speed < threshold_ ? quiet_steps_ + 1 : 0;
-  if (quiet_steps_ < kQuietSteps) return;
+void Sleep::stepped(double speed, double dt, const Particles<Real>& particles,
+                    const std::vector<Solid>& solids) {
+  if (speed >= kPlainlyMoving * threshold_) {
+    watched_.clear();
+    return;
+  }
+  if (!stayed(threshold_ * kQuietSteps * dt, particles)) {
+    watch(particles);
+    return;
+  }
+  if (++quiet_steps_ < kQuietSteps) return;
   box_ = box_around(particles, kMargin);
   if (auto resting = neighbours(solids)) {
     neighbours_ = std::move(*resting);
     asleep_ = true;
   }
+}
+
+template <class Real>
+void Sleep::watch(const Particles<Real>& particles) {
+  const Grid& grid = particles.grid();
+  watched_.clear();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) watched_.push_back(particles.position_at(r, c));
+  }
+  quiet_steps_ = 1;
+}
+
+template <class Real>
+bool Sleep::stayed(double distance, const Particles<Real>& particles) const {
+  const Grid& grid = particles.grid();
+  if (watched_.size() != static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols))
+    return false;
+  auto was = watched_.begin();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c, ++was) {
+      if (!((particles.position_at(r, c) - *was).squaredNorm() < distance * distance)) return false;
+    }
+  }
+  return true;
 }
 
 std::optional<std::vector<Sleep::Neighbour>> Sleep::neighbours(const std::vector<Solid>& solids) const {
@@ -49,7 +84,7 @@ std::optional<std::vector<Sleep::Neighbour>> Sleep::neighbours(const std::vector
   return near;
 }
 
-template void Sleep::stepped(double, const Particles<float>&, const std::vector<Solid>&);
-template void Sleep::stepped(double, const Particles<double>&, const std::vector<Solid>&);
+template void Sleep::stepped(double, double, const Particles<float>&, const std::vector<Solid>&);
+template void Sleep::stepped(double, double, const Particles<double>&, const std::vector<Solid>&);
 
 }  // namespace weft

@@ -9,29 +9,31 @@
 namespace weft {
 
 /// Tells whether a cloth sleeps: one that has hardly moved for a while is left as it is, to the bit, until
-/// something comes near.
+/// something comes near. What counts is how far its nodes get, not how fast they are at any moment: rounding
+/// shakes stiff cloth for ever, by micrometres but at millimetres a second.
 class Sleep {
  public:
-  /// Steps in a row that all nodes must be slower than the threshold. A second at 60 Hz: what turns round, as
-  /// a pendulum does, is slow for a moment only.
+  /// Steps in a row after which all nodes must lie as near to where they were after the first as the
+  /// threshold takes them in that time. A second at 60 Hz: what turns round, as a pendulum does, is slow for
+  /// a moment only.
   static constexpr int kQuietSteps = 60;
   /// A solid is near that comes within this share of the cloth's largest extent of its bounding box.
   static constexpr double kMargin = 0.01;
 
-  /// Sleeps when slower than `speed`, m/s; 0: never.
+  /// Sleeps when no node gets on at more than `speed`, m/s; 0: never.
   explicit Sleep(double speed) : threshold_(speed) {}
 
   bool asleep() const { return asleep_; }
   void wake() {
     asleep_ = false;
-    quiet_steps_ = 0;
+    watched_.clear();
   }
   /// Before a step: true if the cloth sleeps through it. It wakes when the wind changes, and when near it a
   /// solid moves, yields, came or went.
   bool through(const std::vector<Solid>& solids, const Wind& wind);
-  /// After a step that left the cloth at `speed` at most, m/s: falls asleep if it is time.
+  /// After a step of dt, s, that left the cloth at `speed` at most, m/s: falls asleep if it is time.
   template <class Real>
-  void stepped(double speed, const Particles<Real>& particles, const std::vector<Solid>& solids);
+  void stepped(double speed, double dt, const Particles<Real>& particles, const std::vector<Solid>& solids);
 
  private:
   /// A solid that lies near, as it lay when the cloth fell asleep.
@@ -43,8 +45,16 @@ class Sleep {
   /// The solids near the box; nothing if one of them moves or might.
   std::optional<std::vector<Neighbour>> neighbours(const std::vector<Solid>& solids) const;
 
+  /// The nodes' positions now begin a quiet time; what was watched is forgotten.
+  template <class Real>
+  void watch(const Particles<Real>& particles);
+  /// All nodes are within `distance`, m, of where they were when the quiet time began.
+  template <class Real>
+  bool stayed(double distance, const Particles<Real>& particles) const;
+
   double threshold_;
   int quiet_steps_ = 0;
+  std::vector<Vec3> watched_;  ///< positions when the quiet time began; empty while the cloth plainly moves
   bool asleep_ = false;
   Vec3 wind_{0, 0, 0};
   Eigen::AlignedBox3d box_;  ///< with the margin

@@ -23,17 +23,23 @@ json cloths_json(const SimulationDescription& description) {
   return cloths;
 }
 
+json quaternion_json(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
 json obstacle_json(const ObstacleDescription& obstacle) {
   json message{{"position", vector_json(obstacle.position)}};
   if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
     message["shape"] = plane->kName;
     message["normal"] = vector_json(plane->normal);
+  } else if (const auto* box = std::get_if<BoxDescription>(&obstacle.shape)) {
+    message["shape"] = box->kName;
+    message["size"] = vector_json(box->size);
+    message["quaternion"] = quaternion_json(box->orientation);
   } else {
-    const auto& box = std::get<BoxDescription>(obstacle.shape);
-    const Quaternion& q = box.orientation;
-    message["shape"] = box.kName;
-    message["size"] = vector_json(box.size);
-    message["quaternion"] = {q.w(), q.x(), q.y(), q.z()};
+    const auto& capsule = std::get<CapsuleDescription>(obstacle.shape);
+    message["shape"] = capsule.kName;
+    message["radius"] = capsule.radius;
+    message["length"] = capsule.length;
+    message["quaternion"] = quaternion_json(capsule.orientation);
   }
   return message;
 }

@@ -44,15 +44,31 @@ ObstacleDescription read_plane(Object& object) {
   return obstacle;
 }
 
+Quaternion read_turn(Object& object) {
+  const json* orientation = object.find("orientation");
+  if (orientation == nullptr) return Quaternion::Identity();
+  return read_orientation(*orientation, object.path("orientation"), object.report());
+}
+
 ObstacleDescription read_box(Object& object) {
   ObstacleDescription obstacle;
   BoxDescription box;
   object.require("size", "an array of 3 numbers");
   object.vector("size", box.size, kLength);
-  if (const json* orientation = object.find("orientation")) {
-    box.orientation = read_orientation(*orientation, object.path("orientation"), object.report());
-  }
+  box.orientation = read_turn(object);
   obstacle.shape = box;
+  return obstacle;
+}
+
+ObstacleDescription read_capsule(Object& object) {
+  ObstacleDescription obstacle;
+  CapsuleDescription capsule;
+  object.require("radius", kLength);
+  object.number("radius", capsule.radius, kLength);
+  object.require("length", kLength);
+  object.number("length", capsule.length, kLength);
+  capsule.orientation = read_turn(object);
+  obstacle.shape = capsule;
   return obstacle;
 }
 
@@ -80,8 +96,9 @@ std::vector<Waypoint> read_path(Object& owner, const char* place) {
 void read_collider(const json& value, const std::string& path, Report& report,
                    SimulationDescription& simulation) {
   Object object(value, path, report);
-  object.require("type", "\"ball\", \"plane\" or \"box\"");
-  const int type = object.choice("type", {"ball", PlaneDescription::kName, BoxDescription::kName});
+  object.require("type", "\"ball\", \"plane\", \"box\" or \"capsule\"");
+  const int type = object.choice(
+      "type", {"ball", PlaneDescription::kName, BoxDescription::kName, CapsuleDescription::kName});
   if (type < 0) {
     object.ignore_rest();
     return;
@@ -90,7 +107,9 @@ void read_collider(const json& value, const std::string& path, Report& report,
     simulation.balls.push_back(read_ball(object));
     return;
   }
-  ObstacleDescription obstacle = type == 1 ? read_plane(object) : read_box(object);
+  ObstacleDescription obstacle = type == 1   ? read_plane(object)
+                                 : type == 2 ? read_box(object)
+                                             : read_capsule(object);
   object.require("position", "an array of 3 numbers");
   object.vector("position", obstacle.position, kPosition);
   object.number("friction", obstacle.friction, kFriction);

@@ -11,10 +11,10 @@
 ///  - from a stated time on no structural spring is stretched beyond a stated limit. Compression is no harm:
 ///    a spring mesh shortens where cloth has folds finer than the mesh;
 ///  - no node is inside a ball or an obstacle deeper than stated;
-///  - within half a minute after the last event it comes to rest: it falls asleep, which it does when all
-///    nodes have been slower than 0.1 mm/s for 60 steps. An explicit method, which single precision keeps
-///    awake, has settled, the root mean square of the speeds under 1 % of a fall through its size, and does
-///    not jitter: from step to step no node's move changes by 1e-5 of the size.
+///  - within half a minute after the last event it comes to rest: it falls asleep, which it does when no
+///    node has got on at more than 0.1 mm/s for 60 steps. Of one that does not the jitter is told as well,
+///    the largest change of a node's move from step to step: over 1e-5 of the size it is a complaint of its
+///    own.
 #include "case.h"
 
 namespace weft::stability {

@@ -61,6 +61,12 @@ struct ShapeWriter {
     return {{"size", json_of(s.size)},
             {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
   }
+  json operator()(const CapsuleDescription& s) const {
+    const Quaternion& turn = s.orientation;
+    return {{"radius", s.radius},
+            {"length", s.length},
+            {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
+  }
 };
 
 struct EffectWriter {

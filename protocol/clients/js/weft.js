@@ -31,7 +31,8 @@ export const SUBPROTOCOL = 'weft.v1';
  * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic'}} Ball
  * @typedef {{shape: 'plane', position: Vector, normal: Vector}} Plane
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
- * @typedef {Plane|Box} Obstacle in `scene`
+ * @typedef {{shape: 'capsule', position: Vector, radius: number, length: number, quaternion: [number, number, number, number]}} Capsule w, x, y, z
+ * @typedef {Plane|Box|Capsule} Obstacle in `scene`; skip shapes that you do not know
  * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[]}} Frame
  */
 

@@ -41,6 +41,14 @@ kernels::Sphere sphere_of(const PlacedShape& placed, const Sphere& sphere) {
   return {placed.centre.x(), placed.centre.y(), placed.centre.z(), sphere.radius * sphere.radius};
 }
 
+kernels::Stretch stretch_of(const PlacedShape& placed, const Capsule& capsule) {
+  const Vec3 axis = placed.rotation.col(1), start = placed.centre - capsule.half * axis;
+  return {{start.x(), start.y(), start.z()},
+          {axis.x(), axis.y(), axis.z()},
+          2 * capsule.half,
+          capsule.radius * capsule.radius};
+}
+
 /// Which of a block's rows have a node in the shape.
 template <class Real>
 std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedShape& placed) {
@@ -52,6 +60,9 @@ std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedSha
     const Vec3 normal = axes.col(1);
     return kernels::rows_inside(
         block, kernels::Below{normal.x(), normal.y(), normal.z(), normal.dot(placed.centre)});
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&placed.shape)) {
+    return kernels::rows_inside(block, stretch_of(placed, *capsule));
   }
   const Vec3 half = std::get<Box>(placed.shape).half;
   kernels::OrientedBox box{};

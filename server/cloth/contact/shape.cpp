@@ -29,6 +29,17 @@ Surface surface_of(const Box& box, const Vec3& point) {
   return {distance, Vec3(outside.cwiseProduct(sign) / distance)};
 }
 
+/// The axis' nearest point.
+Vec3 on_axis(const Capsule& capsule, const Vec3& point) {
+  return {0, std::clamp(point.y(), -capsule.half, capsule.half), 0};
+}
+
+Surface surface_of(const Capsule& capsule, const Vec3& point) {
+  const Vec3 across = point - on_axis(capsule, point);
+  const double length = across.norm();
+  return {length - capsule.radius, length > 0 ? Vec3(across / length) : Vec3(1, 0, 0)};
+}
+
 std::optional<Hit> hit_of(const Sphere& sphere, const Vec3& from, const Vec3& way) {
   // |from + t way| = radius, the smaller root, in the form that loses no digits when the way is long.
   const double a = way.squaredNorm(), b = from.dot(way),
@@ -66,6 +77,20 @@ std::optional<Hit> hit_of(const Box& box, const Vec3& from, const Vec3& way) {
   return Hit{enter, normal};
 }
 
+std::optional<Hit> hit_of(const Capsule& capsule, const Vec3& from, const Vec3& way) {
+  // The first of: its two ends, as spheres; its side, as a circle across the axis.
+  const Sphere end{capsule.radius};
+  std::optional<Hit> first;
+  const auto take = [&](const std::optional<Hit>& hit) {
+    if (hit && (!first || hit->fraction < first->fraction)) first = hit;
+  };
+  for (const double y : {-capsule.half, capsule.half}) take(hit_of(end, from - Vec3(0, y, 0), way));
+  const Vec3 flat(1, 0, 1);
+  const std::optional<Hit> side = hit_of(end, from.cwiseProduct(flat), way.cwiseProduct(flat));
+  if (side && std::abs(from.y() + side->fraction * way.y()) <= capsule.half) take(side);
+  return first;
+}
+
 double way_out_of(const Sphere& sphere, const Vec3& origin, const Vec3& direction) {
   const double along = origin.dot(direction);
   return -along +
@@ -84,6 +109,26 @@ double way_out_of(const Box& box, const Vec3& origin, const Vec3& direction) {
     out = std::min(out, (side * box.half[axis] - origin[axis]) / direction[axis]);
   }
   return std::max(0.0, out);
+}
+
+/// The larger root of |origin + t direction| = radius; none if the line misses.
+std::optional<double> far_root(const Vec3& origin, const Vec3& direction, double radius) {
+  const double a = direction.squaredNorm(), b = origin.dot(direction);
+  const double discriminant = b * b - a * (origin.squaredNorm() - radius * radius);
+  if (!(a > 0) || !(discriminant >= 0)) return {};
+  return (-b + std::sqrt(discriminant)) / a;
+}
+
+double way_out_of(const Capsule& capsule, const Vec3& origin, const Vec3& direction) {
+  // The last point of the ray in any of its three parts: it is convex.
+  double out = 0;
+  for (const double y : {-capsule.half, capsule.half}) {
+    out = std::max(out, far_root(origin - Vec3(0, y, 0), direction, capsule.radius).value_or(0));
+  }
+  const Vec3 flat(1, 0, 1);
+  const auto side = far_root(origin.cwiseProduct(flat), direction.cwiseProduct(flat), capsule.radius);
+  if (side && std::abs(origin.y() + *side * direction.y()) <= capsule.half) out = std::max(out, *side);
+  return out;
 }
 
 }  // namespace
@@ -117,12 +162,16 @@ Eigen::AlignedBox3d PlacedShape::bounds() const {
   Vec3 half = Vec3::Constant(kInfinity);
   if (const auto* sphere = std::get_if<Sphere>(&shape)) half = Vec3::Constant(sphere->radius);
   if (const auto* box = std::get_if<Box>(&shape)) half = rotation.cwiseAbs() * box->half;
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    half = rotation.col(1).cwiseAbs() * capsule->half + Vec3::Constant(capsule->radius);
+  }
   return {centre - half, centre + half};
 }
 
 double inner_radius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
   return kInfinity;
 }
 

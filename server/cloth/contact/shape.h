@@ -16,7 +16,12 @@ struct HalfSpace {};
 struct Box {
   Vec3 half{0, 0, 0};  ///< half the lengths of its edges, m
 };
-using Shape = std::variant<Sphere, HalfSpace, Box>;
+/// All within `radius` of the middle stretch of its own y axis; a limb.
+struct Capsule {
+  double half = 0;    ///< half the stretch's length, m
+  double radius = 0;  ///< m
+};
+using Shape = std::variant<Sphere, HalfSpace, Box, Capsule>;
 
 /// The point of a surface next to some point.
 struct Surface {
@@ -36,7 +41,8 @@ struct PlacedShape {
   Vec3 centre{0, 0, 0};
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its own axes in the world
 
-  /// At a sphere's very centre the normal points upwards; deep in a box towards the nearest face.
+  /// At a sphere's very centre the normal points upwards, on a capsule's axis across it; deep in a box
+  /// towards the nearest face.
   Surface surface(const Vec3& point) const;
   bool contains(const Vec3& point) const;
   /// Where the straight way from `from`, outside, to `to` first enters; none if it never does.

@@ -77,6 +77,23 @@ template <class Real>
 }
 
 template <class Real>
+[[gnu::always_inline]] inline std::uint32_t rows_inside_any(const NodeBlock<Real>& block,
+                                                            const Stretch& capsule) {
+  const Real *x = block.position.x, *y = block.position.y, *z = block.position.z;
+  const Triple &start = capsule.start, &axis = capsule.axis;
+  return rows_where(block, [=](std::size_t i) WEFT_INLINE_LAMBDA -> std::int64_t {
+    const double dx = static_cast<double>(x[i]) - start.x;
+    const double dy = static_cast<double>(y[i]) - start.y;
+    const double dz = static_cast<double>(z[i]) - start.z;
+    double along = dx * axis.x + dy * axis.y + dz * axis.z;
+    along = along > 0 ? along : 0.0;
+    along = along < capsule.length ? along : capsule.length;
+    const double nx = dx - along * axis.x, ny = dy - along * axis.y, nz = dz - along * axis.z;
+    return nx * nx + ny * ny + nz * nz < capsule.squared_radius ? 1 : 0;
+  });
+}
+
+template <class Real>
 [[gnu::always_inline]] inline std::uint32_t rows_swept_any(const NodeBlock<Real>& block,
                                                            const BlockWay<Real>& way, const Triple& move,
                                                            const Sphere& ball) {
@@ -156,6 +173,12 @@ WEFT_MULTIVERSION std::uint32_t rows_inside(const NodeBlock<double>& block, cons
   return rows_inside_any(block, box);
 }
 
+WEFT_MULTIVERSION std::uint32_t rows_inside(const NodeBlock<float>& block, const Stretch& capsule) {
+  return rows_inside_any(block, capsule);
+}
+WEFT_MULTIVERSION std::uint32_t rows_inside(const NodeBlock<double>& block, const Stretch& capsule) {
+  return rows_inside_any(block, capsule);
+}
 WEFT_MULTIVERSION std::uint32_t rows_swept(const NodeBlock<float>& block, const BlockWay<float>& way,
                                            const Triple& move, const Sphere& ball) {
   return rows_swept_any(block, way, move, ball);

@@ -43,6 +43,13 @@ struct OrientedBox {
   double half[3];
 };
 
+/// The points near the stretch from `start` along the unit vector `axis`.
+struct Stretch {
+  Triple start, axis;
+  double length;
+  double squared_radius;
+};
+
 /// Which of a block's rows have a node inside: bit r for row r.
 std::uint32_t rows_inside(const NodeBlock<float>& block, const Sphere& ball);
 std::uint32_t rows_inside(const NodeBlock<double>& block, const Sphere& ball);
@@ -50,6 +57,8 @@ std::uint32_t rows_inside(const NodeBlock<float>& block, const Below& half_space
 std::uint32_t rows_inside(const NodeBlock<double>& block, const Below& half_space);
 std::uint32_t rows_inside(const NodeBlock<float>& block, const OrientedBox& box);
 std::uint32_t rows_inside(const NodeBlock<double>& block, const OrientedBox& box);
+std::uint32_t rows_inside(const NodeBlock<float>& block, const Stretch& capsule);
+std::uint32_t rows_inside(const NodeBlock<double>& block, const Stretch& capsule);
 
 /// Where a block's nodes come from: own * position + factor * other.
 template <class Real>

@@ -107,6 +107,26 @@ TYPED_TEST(ContinuousContact, ANodeShotThroughABoardStopsAtIt) {
   EXPECT_LT((sheet.velocity_at(4, 4) - Vec3(3, 0, 0)).norm(), 100 * this->kRounding);
 }
 
+TYPED_TEST(ContinuousContact, ARailHoldsWhatIsInItAndWhatIsShotThroughIt) {
+  // A rail of 3 cm along x, under a node in it by 1 cm and one that comes from 0.5 m above at 100 m/s.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  set(sheet.position, 4, 4, {0.1, 0.02, 0});
+  set(sheet.position, 2, 4, {0.4, 0.5 - 100 * kFrame, 0});
+  set(sheet.velocity, 2, 4, {3, -100, 0});
+  set(sheet.position, 6, 4, {0.46, 0.02, 0});  // past the round end by 1 cm: the end's centre is at x = 0.42
+  Solid rail;
+  rail.id = kFirstObstacle;
+  rail.shape = Capsule{0.42, 0.03};
+  rail.rotation = Eigen::AngleAxisd(-std::acos(-1.0) / 2, Vec3::UnitZ()).toRotationMatrix();  // y to x
+  std::vector<Solid> solids{rail};
+  Contact<TypeParam> contact(sheet.grid());
+  EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 2);
+  EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.03, 0)).norm(), this->kRounding);
+  EXPECT_LT((sheet.position_at(2, 4) - Vec3(0.4, 0.03, 0)).norm(), this->kRounding);
+  EXPECT_LT((sheet.velocity_at(2, 4) - Vec3(3, 0, 0)).norm(), 100 * this->kRounding);
+  EXPECT_LT((sheet.position_at(6, 4) - Vec3(0.46, 0.02, 0)).norm(), this->kRounding);
+}
+
 TYPED_TEST(ContinuousContact, WaysAreTakenFromTheStartsWhereTheyAreGiven) {
   // The node's velocity says nothing of the way it came: through the ball, from the other side.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});

@@ -2,6 +2,7 @@
 // figures in each test.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -50,6 +51,26 @@ TEST(ShapeSurface, OfABox) {
   EXPECT_NEAR(turned.surface({10, 1.5, 0}).distance, 0.5, kRounding);
 }
 
+/// Around the z axis from z = -1 to 1, 0.5 m thick to each side: its own y is -z of the world.
+PlacedShape lying_capsule() {
+  return {
+      Capsule{1, 0.5}, {0, 0, 0}, Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3(1, 0, 0)).toRotationMatrix()};
+}
+
+TEST(ShapeSurface, OfACapsule) {
+  const PlacedShape limb = lying_capsule();
+  const Surface side = limb.surface({0.6, 0.8, 0.9}), end = limb.surface({0, 0.6, -1.8});
+  EXPECT_NEAR(side.distance, 0.5, kRounding);  // (0.6, 0.8) from the axis
+  EXPECT_LT((side.normal - Vec3(0.6, 0.8, 0)).norm(), kRounding);
+  EXPECT_NEAR(end.distance, 0.5, kRounding);  // (0.6, -0.8) from the end at z = -1
+  EXPECT_LT((end.normal - Vec3(0, 0.6, -0.8)).norm(), kRounding);
+  EXPECT_NEAR(limb.surface({0, -0.2, 0.5}).distance, -0.3, kRounding);
+  const Surface axis = limb.surface({0, 0, 0.5});
+  EXPECT_NEAR(axis.distance, -0.5, kRounding);
+  EXPECT_NEAR(axis.normal.z(), 0, kRounding);  // across the axis
+  EXPECT_NEAR(axis.normal.norm(), 1, kRounding);
+}
+
 TEST(ShapeFirstHit, OfASphere) {
   const PlacedShape ball{Sphere{0.5}, {0, 0, 0}};
   // At height 0.3 the ball begins at x = -0.4: 3.6 of 8 m.
@@ -86,14 +107,29 @@ TEST(ShapeFirstHit, OfAHalfSpace) {
   EXPECT_FALSE(floor.first_hit({0, 1, 0}, {0, 2, 0}));
 }
 
+TEST(ShapeFirstHit, OfACapsule) {
+  const PlacedShape limb = lying_capsule();
+  const auto side = limb.first_hit({-4, 0.3, 0.9}, {4, 0.3, 0.9});  // as of a ball of that radius
+  ASSERT_TRUE(side);
+  EXPECT_NEAR(side->fraction, 3.6 / 8, kRounding);
+  EXPECT_LT((side->normal - Vec3(-0.8, 0.6, 0)).norm(), kRounding);
+  const auto end = limb.first_hit({0, 0.3, 5}, {0, 0.3, -3});  // at z = 1.4: 3.6 of 8 m
+  ASSERT_TRUE(end);
+  EXPECT_NEAR(end->fraction, 3.6 / 8, kRounding);
+  EXPECT_LT((end->normal - Vec3(0, 0.6, 0.8)).norm(), kRounding);
+  EXPECT_FALSE(limb.first_hit({-4, 0.3, 1.45}, {4, 0.3, 1.45}));  // past the round end
+  EXPECT_FALSE(limb.first_hit({0, 0.51, -3}, {0, 0.51, 3}));      // along it, over it
+}
+
 TEST(ShapeFirstHit, LiesOnTheSurfaceWhateverTheWay) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-3, 3), angle(0, 6);
   int hits = 0;
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < 3000; ++trial) {
     const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
     PlacedShape shape{Sphere{1.1}, point()};
-    if (trial % 2 == 1) shape.shape = Box{{0.4, 0.8, 1.3}};
+    if (trial % 3 == 1) shape.shape = Box{{0.4, 0.8, 1.3}};
+    if (trial % 3 == 2) shape.shape = Capsule{0.9, 0.6};
     shape.rotation = Eigen::AngleAxisd(angle(random), point().normalized()).toRotationMatrix();
     const Vec3 from = point(), to = point();
     if (shape.contains(from)) continue;
@@ -116,12 +152,19 @@ TEST(ShapeWayOut, EndsAtTheSurface) {
   EXPECT_NEAR(box.way_out({0.5, 0, 0}, {-0.6, 0.8, 0}), 2.5, kRounding);  // both faces at 2.5 m
   EXPECT_NEAR(floor.way_out({0, -1, 0}, {0.6, 0.8, 0}), 1.25, kRounding);
   EXPECT_EQ(floor.way_out({0, -1, 0}, {1, 0, 0}), std::numeric_limits<double>::infinity());
+  const PlacedShape limb = lying_capsule();
+  EXPECT_NEAR(limb.way_out({0, 0.25, 0.5}, {0, 0, -1}), 1.5 + std::sqrt(0.25 - 0.0625), kRounding);  // an end
+  EXPECT_NEAR(limb.way_out({0.3, 0, 0.5}, {0, -1, 0}), 0.4, kRounding);       // the side
+  EXPECT_NEAR(limb.way_out({0, 0, 0}, {0.6, 0, 0.8}), 0.5 / 0.6, kRounding);  // the side at z = 0.67
 }
 
 TEST(ShapeBounds, HoldTheShape) {
   const Eigen::AlignedBox3d box = PlacedShape{Box{{1, 2, 3}}, {10, 0, 0}, quarter_turn_about_z()}.bounds();
   EXPECT_LT((box.min() - Vec3(8, -1, -3)).norm(), kRounding);
   EXPECT_LT((box.max() - Vec3(12, 1, 3)).norm(), kRounding);
+  const Eigen::AlignedBox3d limb = lying_capsule().bounds();
+  EXPECT_LT((limb.max() - Vec3(0.5, 0.5, 1.5)).norm(), kRounding);
+  EXPECT_LT((limb.min() + Vec3(0.5, 0.5, 1.5)).norm(), kRounding);
 }
 
 }  // namespace

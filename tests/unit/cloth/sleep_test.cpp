@@ -1,6 +1,8 @@
 // A cloth at rest is left as it is, to the bit, and wakes when something comes.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "busy_scene.h"
 #include "faults.h"
 
@@ -99,6 +101,30 @@ TEST(SleepTest, APendulumThatTurnsRoundIsAwake) {
     simulation.step();
     ASSERT_FALSE(asleep(simulation)) << step;
   }
+}
+
+/// After kQuietSteps steps at 60 Hz of particles that a test moves, at `speed` by its own account.
+bool asleep_after(const std::function<Vec3(int step)>& place, double speed) {
+  Particles<double> particles(Grid::with_nodes(3, 3));
+  Sleep sleep(1e-4);
+  for (int step = 1; step <= Sleep::kQuietSteps; ++step) {
+    const Vec3 at = place(step);
+    particles.position.x.at(1, 1) = at.x();
+    particles.position.y.at(1, 1) = at.y();
+    particles.position.z.at(1, 1) = at.z();
+    sleep.stepped(speed, 1.0 / 60, particles, {});
+  }
+  return sleep.asleep();
+}
+
+TEST(SleepTest, WhatShakesOnThePlaceSleepsAndWhatGetsOnDoesNot) {
+  // 0.1 mm a second is the threshold. Shaken by 0.045 mm to each side, a node goes 5.4 mm a second.
+  EXPECT_TRUE(asleep_after([](int step) { return Vec3(step % 2 == 0 ? 4.5e-5 : -4.5e-5, 0, 0); }, 5.4e-3));
+  EXPECT_FALSE(asleep_after([](int step) { return Vec3(0, step % 2 == 0 ? 5.5e-5 : -5.5e-5, 0); }, 6.6e-3));
+  EXPECT_TRUE(asleep_after([](int step) { return Vec3(0, 0, 0.9e-4 * step / 60); }, 0.9e-4));
+  EXPECT_FALSE(asleep_after([](int step) { return Vec3(0, 0, 1.1e-4 * step / 60); }, 1.1e-4));
+  // As fast as it says it is, it is about to go.
+  EXPECT_FALSE(asleep_after([](int) { return Vec3(0, 0, 0); }, 0.1));
 }
 
 // --- What wakes it ---

@@ -115,7 +115,7 @@ TEST(Reader, BallFields) {
 
 TEST(Reader, ReadsObstacles) {
   const auto obstacles = read_good("everything").simulation.obstacles;
-  ASSERT_EQ(obstacles.size(), 2u);
+  ASSERT_EQ(obstacles.size(), 3u);
   ASSERT_TRUE(std::holds_alternative<PlaneDescription>(obstacles[0].shape));
   EXPECT_LT((std::get<PlaneDescription>(obstacles[0].shape).normal - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
   EXPECT_EQ(obstacles[0].position, Vec3(0, -1, 0));
@@ -125,6 +125,13 @@ TEST(Reader, ReadsObstacles) {
   EXPECT_EQ(box.size, Vec3(1, 2, 4));
   EXPECT_LT((box.orientation * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_EQ(obstacles[1].friction, 0);
+  ASSERT_TRUE(std::holds_alternative<CapsuleDescription>(obstacles[2].shape));
+  const auto& capsule = std::get<CapsuleDescription>(obstacles[2].shape);
+  EXPECT_EQ(capsule.radius, 0.05);
+  EXPECT_EQ(capsule.length, 1.5);
+  EXPECT_LT((capsule.orientation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(obstacles[2].position, Vec3(1, 2, 3));
+  EXPECT_EQ(obstacles[2].friction, 0.25);
 }
 
 TEST(Reader, EffectsWindAndStepping) {
