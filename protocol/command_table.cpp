@@ -77,11 +77,13 @@ Fault read(const json& value, const Bounds& bounds, const std::string& path, Int
   return {};
 }
 
-std::string kind_of(const Vector&, const Bounds& bounds) {
-  return "an array of 3 numbers " + range_text(bounds);
+template <std::size_t kSize>
+std::string kind_of(const std::array<double, kSize>&, const Bounds& bounds) {
+  return "an array of " + std::to_string(kSize) + " numbers " + range_text(bounds);
 }
 
-Fault read(const json& value, const Bounds& bounds, const std::string& path, Vector& to) {
+template <std::size_t kSize>
+Fault read(const json& value, const Bounds& bounds, const std::string& path, std::array<double, kSize>& to) {
   if (!value.is_array() || value.size() != to.size())
     return refuse("bad_type", path, value, kind_of(to, bounds));
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -202,20 +204,30 @@ Fault check_camera(const json&, Command& command) {
   return {};
 }
 
-/// To unit length, by way of the largest component so that no square overflows or vanishes.
-Fault normalise_wind(const json& message, Command& command) {
-  auto& direction = std::get<WindSet>(command).direction;
+/// To unit length, by way of the largest component so that no square overflows or vanishes. False for zero.
+template <std::size_t kSize>
+bool normalise(std::array<double, kSize>& components) {
   double largest = 0;
-  for (const double component : direction) largest = std::max(largest, std::abs(component));
-  if (largest == 0)
-    return refuse("range", "/direction", message["direction"], "any direction but the zero vector");
+  for (const double component : components) largest = std::max(largest, std::abs(component));
+  if (largest == 0) return false;
   double square = 0;
-  for (double& component : direction) {
+  for (double& component : components) {
     component /= largest;
     square += component * component;
   }
-  for (double& component : direction) component /= std::sqrt(square);
-  return {};
+  for (double& component : components) component /= std::sqrt(square);
+  return true;
+}
+
+Fault normalise_wind(const json& message, Command& command) {
+  if (normalise(std::get<WindSet>(command).direction)) return {};
+  return refuse("range", "/direction", message["direction"], "any direction but the zero vector");
+}
+
+Fault normalise_turn(const json& message, Command& command) {
+  auto& quaternion = std::get<ObstacleMove>(command).quaternion;
+  if (!quaternion || normalise(*quaternion)) return {};
+  return refuse("range", "/quaternion", message["quaternion"], "any but zero");
 }
 
 /// Not both.
@@ -269,6 +281,12 @@ const std::vector<Operation>& operations() {
        {field<&BallThrow::ball>("ball", kRequired, kId),
         field<&BallThrow::velocity>("velocity", kRequired, kVelocity)}},
       {"ball.remove", BallRemove{}, {field<&BallRemove::ball>("ball", kRequired, kId)}},
+      {"obstacle.move",
+       ObstacleMove{},
+       {field<&ObstacleMove::obstacle>("obstacle", kRequired, kId),
+        field<&ObstacleMove::position>("position", kRequired, kPlace),
+        field<&ObstacleMove::quaternion>("quaternion", kOptional, {-1e6, 1e6})},
+       normalise_turn},
       {"wind.set",
        WindSet{},
        {field<&WindSet::direction>("direction", kRequired, {-1e6, 1e6}),

@@ -13,7 +13,7 @@ static_assert(std::endian::native == std::endian::little, "fields are stored as 
 
 constexpr std::array<std::uint8_t, 4> kMagic{'W', 'E', 'F', 'T'};
 constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2;
-constexpr std::size_t kBallBytes = 24, kMaxHeaderBytes = 256;
+constexpr std::size_t kBallBytes = 24, kObstacleBytes = 32, kMaxHeaderBytes = 256;
 
 /// Offsets of the header's fields.
 enum Offset : std::size_t {
@@ -65,6 +65,10 @@ std::vector<std::uint8_t> header(const FrameStamp& stamp, std::uint8_t type, std
   put(record.data(), kColsAt, static_cast<std::uint16_t>(cols));
   put(record.data(), kRowsAt, static_cast<std::uint16_t>(rows));
   return record;
+}
+
+bool finite(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 
 void put_payload_length(std::vector<std::uint8_t>& record) {
@@ -139,6 +143,8 @@ class Reader {
         return cloth(header, payload);
       case kBallsRecord:
         return balls(header, payload);
+      case kObstaclesRecord:
+        return obstacles(header, payload);
       default:
         return true;  // of a later minor version
     }
@@ -164,23 +170,41 @@ class Reader {
     return true;
   }
 
-  bool balls(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+  /// Checks a list of `things`, `bytes` each.
+  bool list(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload, const char* things,
+            std::size_t bytes) {
     if (header[kCodecAt] != kListCodec) return fail("codec " + std::to_string(header[kCodecAt]));
     const std::size_t count = get<std::uint16_t>(header, kColsAt);
-    if (get<std::uint16_t>(header, kRowsAt) != 1) return fail("balls in more than one row");
-    if (payload.size() != count * kBallBytes) return fail("balls of another length than their number");
+    if (get<std::uint16_t>(header, kRowsAt) != 1) return fail(std::string(things) + " in more than one row");
+    if (payload.size() != count * bytes)
+      return fail(std::string(things) + " of another length than their number");
+    return true;
+  }
+
+  bool balls(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    if (!list(header, payload, "balls", kBallBytes)) return false;
     for (std::size_t at = 0; at < payload.size(); at += kBallBytes) {
       FrameBall ball;
       ball.id = get<std::uint32_t>(payload, at);
       ball.position = get<std::array<float, 3>>(payload, at + 4);
       ball.radius = get<float>(payload, at + 16);
       const auto motion = get<std::uint32_t>(payload, at + 20);
-      for (const float value : ball.position)
-        if (!std::isfinite(value)) return fail("ball is not finite");
-      if (!std::isfinite(ball.radius)) return fail("ball is not finite");
+      if (!finite(ball.position) || !std::isfinite(ball.radius)) return fail("ball is not finite");
       if (motion > 1) return fail("ball with motion " + std::to_string(motion));
       ball.dynamic = motion == 1;
       frame_.balls.push_back(ball);
+    }
+    return true;
+  }
+
+  bool obstacles(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    if (!list(header, payload, "obstacles", kObstacleBytes)) return false;
+    for (std::size_t at = 0; at < payload.size(); at += kObstacleBytes) {
+      const FrameObstacle obstacle{get<std::uint32_t>(payload, at),
+                                   get<std::array<float, 3>>(payload, at + 4),
+                                   get<std::array<float, 4>>(payload, at + 16)};
+      if (!finite(obstacle.position) || !finite(obstacle.quaternion)) return fail("obstacle is not finite");
+      frame_.obstacles.push_back(obstacle);
     }
     return true;
   }
@@ -218,6 +242,21 @@ std::vector<std::uint8_t> encode_balls_record(const FrameStamp& stamp, std::span
     put(to, 16, ball.radius);
     put(to, 20, std::uint32_t{ball.dynamic});
     to += kBallBytes;
+  }
+  put_payload_length(record);
+  return record;
+}
+
+std::vector<std::uint8_t> encode_obstacles_record(const FrameStamp& stamp,
+                                                  std::span<const FrameObstacle> obstacles) {
+  auto record = header(stamp, kObstaclesRecord, kListCodec, obstacles.size(), 1);
+  record.resize(kHeaderBytes + obstacles.size() * kObstacleBytes);
+  std::uint8_t* to = record.data() + kHeaderBytes;
+  for (const FrameObstacle& obstacle : obstacles) {
+    put(to, 0, obstacle.obstacle);
+    put(to, 4, obstacle.position);
+    put(to, 16, obstacle.quaternion);
+    to += kObstacleBytes;
   }
   put_payload_length(record);
   return record;

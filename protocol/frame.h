@@ -10,7 +10,7 @@
 namespace weft::protocol {
 
 inline constexpr std::size_t kHeaderBytes = 64;
-inline constexpr std::uint8_t kClothRecord = 1, kBallsRecord = 2;
+inline constexpr std::uint8_t kClothRecord = 1, kBallsRecord = 2, kObstaclesRecord = 3;
 inline constexpr std::uint16_t kFlagLast = 1, kFlagPaused = 2, kFlagSlow = 4;
 
 /// What all records of one message share.
@@ -30,10 +30,20 @@ struct FrameBall {
   bool operator==(const FrameBall&) const = default;
 };
 
+/// An obstacle that is not where `scene` says.
+struct FrameObstacle {
+  std::uint32_t obstacle = 0;  ///< its place in `scene`
+  std::array<float, 3> position{};
+  std::array<float, 4> quaternion{};  ///< w, x, y, z
+  bool operator==(const FrameObstacle&) const = default;
+};
+
 /// One cloth's record, last or not: encoded once a level and shared by all viewers of that level.
 std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
                                               int simulated_level, int bits, const GridView& grid);
 std::vector<std::uint8_t> encode_balls_record(const FrameStamp& stamp, std::span<const FrameBall> balls);
+std::vector<std::uint8_t> encode_obstacles_record(const FrameStamp& stamp,
+                                                  std::span<const FrameObstacle> obstacles);
 /// Sets kFlagLast in the record that starts at `offset`.
 void mark_last(std::vector<std::uint8_t>& message, std::size_t offset);
 
@@ -49,6 +59,7 @@ struct Frame {
   FrameStamp stamp;
   std::vector<ClothRecord> cloths;
   std::vector<FrameBall> balls;
+  std::vector<FrameObstacle> obstacles;
 };
 
 /// Decodes one binary message. False, with a reason in `error`, on anything malformed.

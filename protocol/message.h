@@ -15,6 +15,7 @@ inline constexpr const char* kSubprotocol = "weft.v1";
 inline constexpr std::array<const char*, 1> kCapabilities{"flow.ack"};
 
 using Vector = std::array<double, 3>;
+using Turn = std::array<double, 4>;  ///< w, x, y, z
 
 /// Section 6, with its defaults.
 struct Limits {
@@ -60,6 +61,11 @@ struct BallThrow {
 struct BallRemove {
   std::uint32_t ball = 0;
 };
+struct ObstacleMove {
+  std::uint32_t obstacle = 0;  ///< its place in `scene`
+  Vector position{};
+  std::optional<Turn> quaternion;  ///< unit length after parsing; without one it keeps its turn
+};
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
@@ -80,8 +86,9 @@ struct Ping {
   double t = 0;
 };
 
-using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
-                             BallRemove, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+using Command =
+    std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
+                 ObstacleMove, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

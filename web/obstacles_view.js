@@ -1,23 +1,38 @@
-import {BoxGeometry, CapsuleGeometry, Group, Mesh, MeshStandardMaterial, PlaneGeometry, Quaternion, Vector3} from './three/three.module.js';
+import {BoxGeometry, CapsuleGeometry, Group, Mesh, MeshStandardMaterial, PlaneGeometry, Vector3} from './three/three.module.js';
 
 const kColour = 0xb9b2a6;
 const kPlaneSide = 40;  // m; a plane has no end
 const kGap = 0.004;  // m; nodes lie on the surface, and would flicker through it
 
-/** What stands in the scene: planes, boxes and capsules. */
+/** What stands in the scene, or moves as the frames tell: planes, boxes and capsules. */
 export class ObstaclesView {
   constructor() {
     this.group = new Group();
     this.material = new MeshStandardMaterial({color: kColour, roughness: 0.9});
+    /** @type {(Mesh|null)[]} in the scene's order */
+    this.meshes = [];
   }
 
   /** @param {import('./client/weft.js').Obstacle[]} obstacles */
   show(obstacles) {
     this.clear();
-    for (const obstacle of obstacles) {
-      const mesh = this.#mesh(obstacle);
-      if (mesh) this.group.add(mesh);
-    }
+    this.meshes = obstacles.map((obstacle) => this.#mesh(obstacle));
+    for (const mesh of this.meshes) if (mesh) this.group.add(mesh);
+  }
+
+  /** Puts those that moved on their way from `before` to `after` by `share`, the others where `scene` has them. */
+  move(before, after, share) {
+    const pose = (moved, index) => moved.find(({obstacle}) => obstacle === index);
+    this.meshes.forEach((mesh, index) => {
+      if (!mesh) return;
+      const home = mesh.userData.home;
+      this.#place(mesh, pose(after, index) ?? home);
+      if (share === 1 || before === after) return;
+      const to = {position: mesh.position.clone(), quaternion: mesh.quaternion.clone()};
+      this.#place(mesh, pose(before, index) ?? home);
+      mesh.position.lerp(to.position, share);
+      mesh.quaternion.slerp(to.quaternion, share);
+    });
   }
 
   clear() {
@@ -25,26 +40,32 @@ export class ObstaclesView {
       this.group.remove(mesh);
       mesh.geometry.dispose();
     }
+    this.meshes = [];
   }
 
   #mesh(obstacle) {
     const mesh = new Mesh(undefined, this.material);
     mesh.receiveShadow = true;
-    mesh.position.fromArray(obstacle.position);
+    mesh.userData.home = obstacle;
     if (obstacle.shape === 'plane') {
-      const normal = new Vector3().fromArray(obstacle.normal);
       mesh.geometry = new PlaneGeometry(kPlaneSide, kPlaneSide);
-      mesh.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), normal);
-      mesh.position.addScaledVector(normal, -kGap);
+      mesh.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3().fromArray(obstacle.normal));
+      this.#place(mesh, obstacle);
       return mesh;
     }
     const shrunk = (length) => Math.max(length - kGap, length / 2);
     if (obstacle.shape === 'box') mesh.geometry = new BoxGeometry(...obstacle.size.map((length) => 2 * shrunk(length / 2)));
     else if (obstacle.shape === 'capsule') mesh.geometry = new CapsuleGeometry(shrunk(obstacle.radius), obstacle.length, 8, 24);
     else return null;  // of a newer server
-    const [w, x, y, z] = obstacle.quaternion;
-    mesh.quaternion.copy(new Quaternion(x, y, z, w));
+    this.#place(mesh, obstacle);
     mesh.castShadow = true;
     return mesh;
+  }
+
+  #place(mesh, {position, quaternion}) {
+    mesh.position.fromArray(position);
+    const {normal} = mesh.userData.home;
+    if (normal) mesh.position.addScaledVector(new Vector3().fromArray(normal), -kGap);  // a plane keeps its normal
+    else mesh.quaternion.set(quaternion[1], quaternion[2], quaternion[3], quaternion[0]);
   }
 }

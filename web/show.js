@@ -95,6 +95,7 @@ export class Show {
     }
     const coarsest = Math.max(0, ...[...this.cloths.values()].map((view) => view.halfDiagonal || 0));
     this.balls.show(before.balls, after.balls, share, coarsest);
+    this.obstacles.move(before.obstacles, after.obstacles, share);
     this.stamp = after.stamp;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;

@@ -10,23 +10,73 @@ namespace {
 /// Of a ball that is put somewhere.
 constexpr int kStepsToClear = 3;
 
-Solid solid_of(const ObstacleDescription& obstacle, std::size_t index) {
-  Solid solid;
-  solid.id = kFirstObstacle + static_cast<ColliderId>(index);
-  solid.friction = obstacle.friction;
-  solid.start = solid.position = obstacle.position;
-  if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
-    solid.shape = HalfSpace{};
-    solid.rotation = Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane->normal).toRotationMatrix();
-  } else if (const auto* box = std::get_if<BoxDescription>(&obstacle.shape)) {
-    solid.shape = Box{box->size / 2};
-    solid.rotation = box->orientation.toRotationMatrix();
+/// Puts it there.
+void take(Obstacle& obstacle, const Pose& pose) {
+  obstacle.pose.position = obstacle.solid.position = pose.position;
+  if (std::holds_alternative<HalfSpace>(obstacle.solid.shape)) return;
+  obstacle.pose.orientation = pose.orientation;
+  obstacle.solid.rotation = pose.orientation.toRotationMatrix();
+}
+
+Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
+  Obstacle obstacle;
+  obstacle.pose.position = description.position;
+  Shape& shape = obstacle.solid.shape;
+  if (const auto* plane = std::get_if<PlaneDescription>(&description.shape)) {
+    shape = HalfSpace{};
+    obstacle.pose.orientation = Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane->normal);
+  } else if (const auto* box = std::get_if<BoxDescription>(&description.shape)) {
+    shape = Box{box->size / 2};
+    obstacle.pose.orientation = box->orientation;
   } else {
-    const auto& capsule = std::get<CapsuleDescription>(obstacle.shape);
-    solid.shape = Capsule{capsule.length / 2, capsule.radius};
-    solid.rotation = capsule.orientation.toRotationMatrix();
+    const auto& capsule = std::get<CapsuleDescription>(description.shape);
+    shape = Capsule{capsule.length / 2, capsule.radius};
+    obstacle.pose.orientation = capsule.orientation;
   }
-  return solid;
+  obstacle.path = description.path;
+  obstacle.loops = description.loop;
+  obstacle.mobile = !description.path.empty();
+  Solid& solid = obstacle.solid;
+  solid.id = kFirstObstacle + static_cast<ColliderId>(index);
+  solid.friction = description.friction;
+  solid.rotation = obstacle.pose.orientation.toRotationMatrix();
+  if (obstacle.mobile) take(obstacle, along_path(obstacle.path, 0, obstacle.loops));
+  solid.start = solid.position = obstacle.pose.position;
+  return obstacle;
+}
+
+/// Whatever moved it has come to its end.
+void stop(Solid& solid) {
+  solid.start = solid.position;
+  solid.velocity = solid.turn = solid.spin = Vec3::Zero();
+}
+
+/// It goes from pose to pose in a step of dt, s.
+void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
+  Solid& solid = obstacle.solid;
+  solid.start = from.position;
+  solid.velocity = (to.position - from.position) / dt;
+  if (!std::holds_alternative<HalfSpace>(solid.shape)) {
+    Quaternion turn = to.orientation * from.orientation.conjugate();
+    if (turn.w() < 0) turn.coeffs() *= -1;  // the shorter way round
+    const Eigen::AngleAxisd angle_axis(turn);
+    solid.turn = angle_axis.angle() * angle_axis.axis();
+    solid.spin = solid.turn / dt;
+  }
+  take(obstacle, to);  // `from` may be what it has
+}
+
+/// Along its path or to its target, in a step from `time` on.
+void advance(Obstacle& obstacle, double time, double dt) {
+  if (obstacle.target) {
+    go(obstacle, obstacle.pose, *obstacle.target, dt);
+    obstacle.target.reset();
+  } else if (!obstacle.path.empty()) {
+    const auto pose = [&](double when) { return along_path(obstacle.path, when, obstacle.loops); };
+    go(obstacle, pose(time), pose(time + dt), dt);
+  } else {
+    stop(obstacle.solid);
+  }
 }
 
 template <class Balls>
@@ -51,7 +101,7 @@ Colliders::Colliders(const std::vector<BallDescription>& balls,
                      const std::vector<ObstacleDescription>& obstacles) {
   for (const BallDescription& ball : balls) add(ball);
   for (const ObstacleDescription& obstacle : obstacles)
-    obstacles_.push_back(solid_of(obstacle, obstacles_.size()));
+    obstacles_.push_back(made_of(obstacle, obstacles_.size()));
 }
 
 const Ball* Colliders::find(BallId id) const {
@@ -68,6 +118,7 @@ BallId Colliders::add(const BallDescription& description) {
   ball.friction = description.friction;
   ball.steps_to_clear = kStepsToClear;
   ball.path = description.path;
+  ball.loops = description.loop;
   ball.position = description.path.empty() ? description.position : description.path.front().position;
   ball.start = ball.position;
   if (description.path.empty()) ball.velocity = description.velocity;
@@ -103,6 +154,15 @@ bool Colliders::remove(BallId id) {
   return true;
 }
 
+bool Colliders::move_obstacle(std::size_t index, const Pose& target) {
+  if (index >= obstacles_.size()) return false;
+  Obstacle& obstacle = obstacles_[index];
+  obstacle.mobile = true;
+  obstacle.path.clear();
+  obstacle.target = {target.position, target.orientation.normalized()};
+  return true;
+}
+
 void Colliders::forget_target(BallId id) {
   std::erase_if(targets_, [&](const Target& target) { return target.ball == id; });
 }
@@ -112,8 +172,8 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
     ball.start = ball.position;
     ball.sharing = 1;
     if (!ball.path.empty()) {
-      ball.start = along_path(ball.path, time);
-      ball.position = along_path(ball.path, time + dt);
+      ball.start = along_path(ball.path, time, ball.loops);
+      ball.position = along_path(ball.path, time + dt, ball.loops);
       ball.velocity = (ball.position - ball.start) / dt;
       continue;
     }
@@ -134,7 +194,10 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
   stop_bad_balls();
   solids_.clear();
   for (const Ball& ball : balls_) solids_.push_back(ball.solid());
-  solids_.insert(solids_.end(), obstacles_.begin(), obstacles_.end());
+  for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.mobile) advance(obstacle, time, dt);
+    solids_.push_back(obstacle.solid);
+  }
 }
 
 void Colliders::share(BallId id, int cloths) {

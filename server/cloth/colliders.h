@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,19 @@ struct Ball {
   Vec3 sped_up{0, 0, 0};   ///< the same of its velocity, m/s
   int sharing = 1;         ///< cloths that see a share of its mass in this step
   std::vector<Waypoint> path;
+  bool loops = false;  ///< the path
 
   Solid solid() const;
+};
+
+/// An obstacle as it is now. During a step it goes and turns evenly from pose to pose.
+struct Obstacle {
+  Solid solid;
+  Pose pose;            ///< at the end of the step; a plane's orientation says nothing
+  bool mobile = false;  ///< follows a path, or was moved since the start
+  std::vector<PoseWaypoint> path;
+  bool loops = false;          ///< the path
+  std::optional<Pose> target;  ///< where it was told to go, until it is there
 };
 
 /// The scene's balls and obstacles. Ids of balls count up from 1 and are never used again until a reset.
@@ -37,6 +49,7 @@ class Colliders {
                      const std::vector<ObstacleDescription>& obstacles = {});
 
   const std::vector<Ball>& balls() const { return balls_; }
+  const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   const Ball* find(BallId id) const;
   /// All that the cloths may meet in the step that has begun: the balls in their order, then the obstacles.
   const std::vector<Solid>& solids() const { return solids_; }
@@ -48,9 +61,12 @@ class Colliders {
   /// The ball becomes dynamic and flies off. False if there is no such ball.
   bool throw_ball(BallId id, const Vec3& velocity);
   bool remove(BallId id);
+  /// The obstacle, by its place in obstacles(), leaves its path, takes the pose within the next step and
+  /// stays there. False if there is no such obstacle.
+  bool move_obstacle(std::size_t index, const Pose& target);
 
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
-  /// velocity.
+  /// velocity; and every obstacle along its path or to its target.
   void begin_step(double time, double dt, const Vec3& gravity);
   /// So many cloths, at least 1, will touch the ball in the step that has begun. They are stepped side by
   /// side and know nothing of each other, and would all stop the same ball, and so throw it back: it is for
@@ -79,7 +95,8 @@ class Colliders {
   void stop_bad_balls();
 
   std::vector<Ball> balls_;
-  std::vector<Solid> obstacles_, solids_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<Solid> solids_;
   std::vector<Target> targets_;
   std::vector<BallId> stopped_;
   BallId next_id_ = 1;

@@ -60,11 +60,24 @@ struct Waypoint {
   Vec3 position{0.0, 0.0, 0.0};
 };
 
+/// Where something is and how it is turned.
+struct Pose {
+  Vec3 position{0.0, 0.0, 0.0};
+  Quaternion orientation = Quaternion::Identity();  ///< local to world
+};
+/// A pose taken at a time; between two points straight and turning at an even rate the shorter way round, at
+/// rest before the first and after the last.
+struct PoseWaypoint {
+  double time = 0.0;  ///< s, ascending
+  Pose pose;
+};
+
 /// Nodes held where they are: all with u, v inside the closed rectangle, or the nearest one if there is none.
 /// (0, 0) is the top left corner, (1, 1) the bottom right one.
 struct PinRegion {
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< in [0, 1]
   std::vector<Waypoint> path = {};  ///< how far they are from where they start, if they are moved
+  bool loop = false;                ///< the path begins anew when it ends; it then ends where it begins
 };
 
 struct ClothDescription {
@@ -97,6 +110,7 @@ struct BallDescription {
   double mass = 1.0;           ///< kg, > 0, dynamic balls only
   double friction = 0.0;       ///< Coulomb's coefficient between ball and cloth, >= 0; 0 in the paper
   std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
+  bool loop = false;           ///< as a pin's
 };
 
 /// All space below a plane: a floor, a wall. `position` is one of its points.
@@ -117,11 +131,14 @@ struct CapsuleDescription {
   Quaternion orientation = Quaternion::Identity();  ///< local to world
   static constexpr const char* kName = "capsule";
 };
-/// Something that stands where it is; the cloth yields.
+/// Something that stands where it is or goes where it is told (path, commands); the cloth yields.
 struct ObstacleDescription {
   std::variant<PlaneDescription, BoxDescription, CapsuleDescription> shape;
   Vec3 position{0.0, 0.0, 0.0};
   double friction = 0.0;  ///< as a ball's
+  /// Overrides position and orientation. Planes keep their normal.
+  std::vector<PoseWaypoint> path = {};
+  bool loop = false;  ///< as a pin's
 };
 
 // --- How it is stepped ---

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/path.h"
 
@@ -58,10 +59,11 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
       set(particles.velocity, node, Vec3::Zero());
     }
     if (region.path.empty()) continue;
-    Path path{region.path, {}};
-    const Vec3 offset = along_path(region.path, time);
+    Path path{region.path, region.loop, {}};
+    const Vec3 offset = along_path(region.path, time, region.loop);
     for (const std::size_t node : nodes) path.nodes.push_back({node, get(particles.position, node) - offset});
-    end_of_motion_ = std::max(end_of_motion_, region.path.back().time);
+    end_of_motion_ = std::max(
+        end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
     carried_.push_back(std::move(path));
   }
 }
@@ -69,7 +71,7 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
 template <class Real>
 void Pins<Real>::carry(Particles<Real>& particles, double time) const {
   for (const Path& path : carried_) {
-    const Vec3 offset = along_path(path.points, time);
+    const Vec3 offset = along_path(path.points, time, path.loops);
     for (const Carried& carried : path.nodes) set(particles.position, carried.node, carried.origin + offset);
   }
 }

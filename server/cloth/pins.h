@@ -17,7 +17,7 @@ class Pins {
 
   /// Whether any pin has a path.
   bool moving() const { return !carried_.empty(); }
-  /// When the last path ends, s.
+  /// When the last path ends, s; infinite if one loops.
   double end_of_motion() const { return end_of_motion_; }
   /// Puts the nodes that a path carries where they are at `time`, s.
   void carry(Particles<Real>& particles, double time) const;
@@ -29,6 +29,7 @@ class Pins {
   };
   struct Path {
     std::vector<Waypoint> points;
+    bool loops;
     std::vector<Carried> nodes;
   };
   std::vector<Path> carried_;

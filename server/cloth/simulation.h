@@ -66,6 +66,9 @@ class Simulation {
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
   bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }
   bool remove_ball(BallId id) { return colliders_.remove(id); }
+  bool move_obstacle(std::size_t index, const Pose& target) {
+    return colliders_.move_obstacle(index, target);
+  }
 
   /// One fixed step of description().time_step seconds.
   void step();

@@ -43,6 +43,14 @@ void FrameEncoder::capture(const Simulation<float>& simulation, const protocol::
                      ball.motion == BallDescription::Motion::dynamic});
   }
   balls_ = std::move(balls);
+  obstacles_.clear();
+  std::uint32_t index = 0;
+  for (const Obstacle& obstacle : simulation.colliders().obstacles()) {
+    const Eigen::Vector3f p = obstacle.pose.position.cast<float>();
+    const Eigen::Quaternionf q = obstacle.pose.orientation.cast<float>();
+    if (obstacle.mobile) obstacles_.push_back({index, {p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}});
+    ++index;
+  }
   cloths_.resize(simulation.cloths().size());
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     cloths_[i].level = simulation.cloths()[i].level();
@@ -67,7 +75,7 @@ std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     made->records.push_back(cloth_record(i, std::min(levels[i], cloths_[i].level)));
   }
-  if (!balls_.empty()) made->records.push_back(balls_record());
+  made->records.insert(made->records.end(), list_records().begin(), list_records().end());
   message = std::move(made);
   return message;
 }
@@ -80,25 +88,27 @@ const Record& FrameEncoder::cloth_record(std::size_t cloth, int level) {
                                              kBits, coarsened(shown.position, shown.level, level));
   // Last for every viewer or for none: the records of one message differ between viewers only in their
   // levels.
-  if (balls_.empty() && cloth + 1 == cloths_.size()) protocol::mark_last(bytes, 0);
+  if (balls_.empty() && obstacles_.empty() && cloth + 1 == cloths_.size()) protocol::mark_last(bytes, 0);
   record = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
   ++encodes_;
   return record;
 }
 
-const Record& FrameEncoder::balls_record() {
-  if (!balls_record_) {
-    auto bytes = protocol::encode_balls_record(stamp_, balls_);
-    protocol::mark_last(bytes, 0);
-    balls_record_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+const std::vector<Record>& FrameEncoder::list_records() {
+  if (!list_records_.empty()) return list_records_;
+  const auto add = [&](std::vector<std::uint8_t> bytes, bool last) {
+    if (last) protocol::mark_last(bytes, 0);
+    list_records_.push_back(std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes)));
     ++encodes_;
-  }
-  return balls_record_;
+  };
+  if (!balls_.empty()) add(protocol::encode_balls_record(stamp_, balls_), obstacles_.empty());
+  if (!obstacles_.empty()) add(protocol::encode_obstacles_record(stamp_, obstacles_), true);
+  return list_records_;
 }
 
 void FrameEncoder::forget_encodings() {
   for (ShownCloth& cloth : cloths_) cloth.records.clear();
-  balls_record_ = nullptr;
+  list_records_.clear();
   messages_.clear();
 }
 

@@ -39,13 +39,15 @@ class FrameEncoder {
     std::map<int, Record> records;  ///< by level
   };
   const Record& cloth_record(std::size_t cloth, int level);
-  const Record& balls_record();
+  /// Balls, then obstacles; no record for none.
+  const std::vector<Record>& list_records();
   void forget_encodings();
 
   protocol::FrameStamp stamp_;
   std::vector<ShownCloth> cloths_;
   std::vector<protocol::FrameBall> balls_;
-  Record balls_record_;
+  std::vector<protocol::FrameObstacle> obstacles_;  ///< those that are not where `scene` says
+  std::vector<Record> list_records_;                ///< empty until encoded
   std::map<std::vector<int>, std::shared_ptr<const FrameMessage>> messages_;  ///< by levels
   std::uint64_t encodes_ = 0;
 };

@@ -21,8 +21,8 @@ namespace weft::host {
 /// The commands that are the scene's to carry out; the rest is answered by Connection.
 using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
-                 protocol::BallRemove, protocol::WindSet, protocol::Quality, protocol::Cost, protocol::Pause,
-                 protocol::Resume, protocol::Reset, protocol::Step>;
+                 protocol::BallRemove, protocol::ObstacleMove, protocol::WindSet, protocol::Quality,
+                 protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -78,6 +78,7 @@ class LiveScene {
   Outcome carry_out(const protocol::BallMove& move, Seat& seat);
   Outcome carry_out(const protocol::BallThrow& thrown, Seat& seat);
   Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
+  Outcome carry_out(const protocol::ObstacleMove& move, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
   Outcome carry_out(const protocol::Quality& quality, Seat& seat);
   Outcome carry_out(const protocol::Cost& cost, Seat& seat);

@@ -95,6 +95,22 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat
   return json::object();
 }
 
+LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat&) {
+  const auto& obstacles = simulation_.colliders().obstacles();
+  if (move.obstacle >= obstacles.size()) {
+    return refused("not_found", "/obstacle",
+                   "/obstacle is " + std::to_string(move.obstacle) + "; the scene has " +
+                       std::to_string(obstacles.size()) + " obstacles, counted from 0");
+  }
+  Pose pose{to_vec3(move.position), obstacles[move.obstacle].pose.orientation};
+  if (move.quaternion) {
+    const protocol::Turn& q = *move.quaternion;
+    pose.orientation = Quaternion(q[0], q[1], q[2], q[3]);
+  }
+  simulation_.move_obstacle(move.obstacle, pose);
+  return json::object();
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (!has_wind(scene_.simulation)) {
     return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");

@@ -96,7 +96,9 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report) {
     Object object(value, path, report);
     read_span(object, "u", region.u_min, region.u_max);
     read_span(object, "v", region.v_min, region.v_max);
-    region.path = read_path(object, "offset");
+    WaypointPath way = read_path(object, "offset");
+    region.path = std::move(way.points);
+    region.loop = way.loop;
     return region;
   }
   std::vector<std::string_view> names;

@@ -7,11 +7,14 @@ using nlohmann::json;
 
 constexpr Range kFriction{0, 10};
 
-std::vector<Waypoint> read_ball_path(Object& ball) {
-  for (const char* key : {"position", "velocity"}) {
-    if (ball.has(key)) ball.problem(key, "is given beside path; the path says where the ball is");
+/// Where it is, unless a path says so.
+void read_position(Object& object, Vec3& position) {
+  if (!object.has("path")) {
+    object.require("position", "an array of 3 numbers, or a path");
+  } else if (object.has("position")) {
+    object.problem("position", "is given beside path; the path says where it is");
   }
-  return read_path(ball, "position");
+  object.vector("position", position, kPosition);
 }
 
 BallDescription read_ball(Object& object) {
@@ -22,17 +25,18 @@ BallDescription read_ball(Object& object) {
   if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
   object.number("mass", ball.mass, kMass);
   object.number("friction", ball.friction, kFriction);
+  read_position(object, ball.position);
+  object.vector("velocity", ball.velocity, kVelocity);
   if (object.has("path")) {
+    if (object.has("velocity")) object.problem("velocity", "is given beside path; the path says where it is");
     if (ball.motion == BallDescription::Motion::dynamic) {
       object.problem("path", "is given for a dynamic ball; only kinematic balls follow a path");
     }
-    ball.path = read_ball_path(object);
-    if (!ball.path.empty()) ball.position = ball.path.front().position;
-  } else {
-    object.require("position", "an array of 3 numbers, or a path");
   }
-  object.vector("position", ball.position, kPosition);
-  object.vector("velocity", ball.velocity, kVelocity);
+  WaypointPath path = read_path(object, "position");
+  if (!path.points.empty()) ball.position = path.points.front().position;
+  ball.path = std::move(path.points);
+  ball.loop = path.loop;
   return ball;
 }
 
@@ -41,13 +45,8 @@ ObstacleDescription read_plane(Object& object) {
   PlaneDescription plane;
   object.direction("normal", plane.normal, kComponent);
   obstacle.shape = plane;
+  read_pose_path(object, nullptr, obstacle);
   return obstacle;
-}
-
-Quaternion read_turn(Object& object) {
-  const json* orientation = object.find("orientation");
-  if (orientation == nullptr) return Quaternion::Identity();
-  return read_orientation(*orientation, object.path("orientation"), object.report());
 }
 
 ObstacleDescription read_box(Object& object) {
@@ -55,8 +54,9 @@ ObstacleDescription read_box(Object& object) {
   BoxDescription box;
   object.require("size", "an array of 3 numbers");
   object.vector("size", box.size, kLength);
-  box.orientation = read_turn(object);
+  box.orientation = read_turn(object, Quaternion::Identity());
   obstacle.shape = box;
+  read_pose_path(object, &box.orientation, obstacle);
   return obstacle;
 }
 
@@ -67,31 +67,13 @@ ObstacleDescription read_capsule(Object& object) {
   object.number("radius", capsule.radius, kLength);
   object.require("length", kLength);
   object.number("length", capsule.length, kLength);
-  capsule.orientation = read_turn(object);
+  capsule.orientation = read_turn(object, Quaternion::Identity());
   obstacle.shape = capsule;
+  read_pose_path(object, &capsule.orientation, obstacle);
   return obstacle;
 }
 
 }  // namespace
-
-std::vector<Waypoint> read_path(Object& owner, const char* place) {
-  constexpr Range kTime{0, 1e6, "s"};
-  std::vector<Waypoint> path;
-  owner.each("path", 1, kMaxWaypoints, [&](const json& value, const std::string& at) {
-    Waypoint point;
-    Object object(value, at, owner.report());
-    object.require("time", kTime);
-    const bool timed = object.number("time", point.time, kTime);
-    object.require(place, "an array of 3 numbers");
-    object.vector(place, point.position, kPosition);
-    if (timed && !path.empty() && point.time <= path.back().time) {
-      owner.report().refuse(value["time"], object.path("time"),
-                            "later than the point before, at " + json(path.back().time).dump() + " s");
-    }
-    path.push_back(point);
-  });
-  return path;
-}
 
 void read_collider(const json& value, const std::string& path, Report& report,
                    SimulationDescription& simulation) {
@@ -110,8 +92,8 @@ void read_collider(const json& value, const std::string& path, Report& report,
   ObstacleDescription obstacle = type == 1   ? read_plane(object)
                                  : type == 2 ? read_box(object)
                                              : read_capsule(object);
-  object.require("position", "an array of 3 numbers");
-  object.vector("position", obstacle.position, kPosition);
+  read_position(object, obstacle.position);
+  if (!obstacle.path.empty()) obstacle.position = obstacle.path.front().pose.position;
   object.number("friction", obstacle.friction, kFriction);
   simulation.obstacles.push_back(obstacle);
 }

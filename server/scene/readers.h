@@ -28,8 +28,18 @@ void read_collider(const nlohmann::json& value, const std::string& path, Report&
                    SimulationDescription& simulation);
 /// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
 Quaternion read_orientation(const nlohmann::json& value, const std::string& path, Report& report);
-/// The owner's "path", if it has one: points at ascending times, their places under the key `place`.
-std::vector<Waypoint> read_path(Object& owner, const char* place);
+/// The object's "orientation", if it has one.
+Quaternion read_turn(Object& object, const Quaternion& otherwise);
+struct WaypointPath {
+  std::vector<Waypoint> points;
+  bool loop = false;
+};
+/// The owner's "path" and "loop", if it has them: points at ascending times, their places under the key
+/// `place`.
+WaypointPath read_path(Object& owner, const char* place);
+/// The same of an obstacle. Its points have the `orientation` that they do not give themselves; without one
+/// they cannot have any.
+void read_pose_path(Object& owner, const Quaternion* orientation, ObstacleDescription& obstacle);
 std::optional<EffectDescription> read_effect(const nlohmann::json& value, const std::string& path,
                                              Report& report);
 Wind read_wind(const nlohmann::json& value, const std::string& path, Report& report);

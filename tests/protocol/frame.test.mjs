@@ -11,6 +11,7 @@ for (const { name, hex, expect } of frames.good) {
     const { f, epoch, time, server_ms: serverMs, flags } = expect;
     assert.deepEqual(frame.stamp, { f, epoch, time, serverMs, paused: (flags & 2) !== 0, slow: (flags & 4) !== 0 });
     assert.deepEqual(frame.balls, expect.balls);
+    assert.deepEqual(frame.obstacles, expect.obstacles);
     assert.equal(frame.cloths.length, expect.cloths.length);
     frame.cloths.forEach(({ positions, ...header }, i) => {
       const { cloth, level, simulated_level: simulatedLevel, rows, cols, quantum, positions_f32: bytes } = expect.cloths[i];

@@ -64,6 +64,14 @@ TEST(Frame, GoodVectorsDecodeToTheirValues) {
                            wanted["motion"] == "dynamic"};
       EXPECT_EQ(frame.balls[i], ball);
     }
+
+    ASSERT_EQ(frame.obstacles.size(), expect["obstacles"].size());
+    for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {
+      const json& wanted = expect["obstacles"][i];
+      const FrameObstacle obstacle{wanted["obstacle"], wanted["position"].get<std::array<float, 3>>(),
+                                   wanted["quaternion"].get<std::array<float, 4>>()};
+      EXPECT_EQ(frame.obstacles[i], obstacle);
+    }
   }
 }
 
@@ -140,6 +148,18 @@ TEST(Frame, BallsRecordGivesTheVectorsBytes) {
     mark_last(record, 0);
     EXPECT_EQ(record, from_hex(vector["hex"]));
   }
+}
+
+TEST(Frame, ObstaclesRecordGivesTheVectorsBytes) {
+  const auto vector = std::find_if(frames()["good"].begin(), frames()["good"].end(),
+                                   [](const json& each) { return each["name"] == "obstacles_only"; });
+  ASSERT_NE(vector, frames()["good"].end());
+  Frame frame;
+  std::string error;
+  ASSERT_TRUE(decode_frame(from_hex((*vector)["hex"]), frame, error)) << error;
+  auto record = encode_obstacles_record(frame.stamp, frame.obstacles);
+  mark_last(record, 0);
+  EXPECT_EQ(record, from_hex((*vector)["hex"]));
 }
 
 TEST(Frame, EveryBeginningOfAMessageIsRefused) {

@@ -92,6 +92,12 @@ def balls_record(balls, **head):
     return record(ball_payload(balls), **{**fields, **head})
 
 
+def obstacles_record(obstacles, **head):
+    payload = b"".join(struct.pack("<I3f4f", index, *position, *quaternion) for index, position, quaternion in obstacles)
+    fields = {"kind": 3, "codec": 2, "bits": 0, "level": 0, "simulated_level": 0, "cols": len(obstacles), "rows": 1, "quantum": 0.0}
+    return record(payload, **{**fields, **head})
+
+
 def f32(value):
     return struct.unpack("<f", struct.pack("<f", value))[0]
 
@@ -112,16 +118,21 @@ def wavy(rows, cols, bits, phase, quantum):
     return Cloth(axes, rows, cols, bits=bits, origin=[low * quantum for low in least], quantum=quantum)
 
 
-def message(name, about, records, expected_cloths=(), expected_balls=(), **stamp):
+def message(name, about, records, expected_cloths=(), expected_balls=(), expected_obstacles=(), **stamp):
     fields = {"f": 120, "epoch": 1, "time": 2.0, "server_ms": 4115200, "flags": 0, **stamp}
     return {"name": name, "about": about, "hex": b"".join(records).hex(),
             "expect": {**fields, "cloths": [cloth.expected() for cloth in expected_cloths],
                        "balls": [{"ball": ident, "position": [f32(x) for x in position], "radius": f32(radius),
-                                  "motion": ("kinematic", "dynamic")[motion]} for ident, position, radius, motion in expected_balls]}}
+                                  "motion": ("kinematic", "dynamic")[motion]} for ident, position, radius, motion in expected_balls],
+                       "obstacles": [{"obstacle": index, "position": [f32(x) for x in position], "quaternion": [f32(x) for x in quaternion]}
+                                     for index, position, quaternion in expected_obstacles]}}
 
 
 SMALL = Cloth([[0, 1, 0, 1], [1, 1, 0, 0], [0, 0, 0, 255]], 2, 2, bits=8, quantum=1.0, finest=True)
 BALLS = [(1, (0.0, 0.1, 2.5), 0.2, 0), (7, (-3.25, 1e-3, 0.0), 0.05, 1), (4294967295, (1000.0, -1000.0, 0.3), 10.0, 0)]
+
+
+OBSTACLES = [(0, (0.0, 0.1, 2.5), (1.0, 0.0, 0.0, 0.0)), (63, (-3.25, 1e-3, 1000.0), (0.0, 0.6, 0.0, -0.8))]
 
 
 def single(name, about, cloth):
@@ -159,9 +170,12 @@ def good():
                 [first.bytes(flags=0), second.bytes(flags=0), balls_record(BALLS)], [first, second], BALLS),
         message("balls_only", "a scene without cloth", [balls_record(BALLS[:1])], [], BALLS[:1]),
         message("no_balls", "a list without entries", [balls_record([])]),
+        message("obstacles", "a cloth, a ball and two obstacles that moved",
+                [SMALL.bytes(flags=0), balls_record(BALLS[:1], flags=0), obstacles_record(OBSTACLES)], [SMALL], BALLS[:1], OBSTACLES),
+        message("obstacles_only", "obstacles without cloth or balls", [obstacles_record(OBSTACLES)], expected_obstacles=OBSTACLES),
         message("unknown_record", "a record of an unknown type, with an unknown codec, is skipped",
                 [record(b"\xff" * 13, kind=200, codec=77, bits=99, flags=0), SMALL.bytes()], [SMALL]),
-        message("unknown_only", "nothing but an unknown record", [record(b"", kind=3)]),
+        message("unknown_only", "nothing but an unknown record", [record(b"", kind=4)]),
         message("long_header", "headers of 72 and 256 bytes: what is not known is skipped",
                 [SMALL.bytes(header_length=72, flags=0), balls_record(BALLS[:2], header_length=256)], [SMALL], BALLS[:2]),
         message("flags", "paused, slow, and an unknown bit", [SMALL.bytes(flags=LAST | PAUSED | SLOW | 0x8000)], [SMALL],
@@ -244,6 +258,11 @@ def bad():
         ("ball_position_nan", one_ball((0.0, nan, 0.0)), "ball is not finite"),
         ("ball_radius_inf", one_ball(radius=inf), "ball is not finite"),
         ("ball_motion_2", one_ball(motion=2), "ball with motion 2"),
+        ("obstacles_codec_1", obstacles_record(OBSTACLES, codec=1), "codec 1"),
+        ("obstacles_rows_0", obstacles_record(OBSTACLES, rows=0), "obstacles in more than one row"),
+        ("obstacles_count_3", obstacles_record(OBSTACLES, cols=3), "obstacles of another length than their number"),
+        ("obstacle_position_inf", obstacles_record([(0, (0.0, inf, 0.0), (1.0, 0.0, 0.0, 0.0))]), "obstacle is not finite"),
+        ("obstacle_quaternion_nan", obstacles_record([(0, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, nan))]), "obstacle is not finite"),
     ]
 
 

@@ -55,6 +55,9 @@ class Vectors(unittest.TestCase):
                     self.assertEqual(cloth.positions.tobytes().hex(), wanted["positions_f32"])
                 balls = [weft.Ball(ball["ball"], tuple(ball["position"]), ball["radius"], ball["motion"]) for ball in expect["balls"]]
                 self.assertEqual(frame.balls, balls)
+                obstacles = [weft.MovedObstacle(each["obstacle"], tuple(each["position"]), tuple(each["quaternion"]))
+                             for each in expect["obstacles"]]
+                self.assertEqual(frame.obstacles, obstacles)
 
     def test_bad_frames(self):
         for vector in FRAMES["bad"]:
@@ -147,6 +150,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.move_ball(7, [1, 1, 1])
             await scene.throw_ball(7, [0, 0, -6])
             await scene.remove_ball(7)
+            await scene.move_obstacle(0, [0, 1, 0])
+            await scene.move_obstacle(1, (0, 1, 0), quaternion=(0, 1, 0, 0))
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
@@ -166,7 +171,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "camera", "distance": 5}, {"op": "camera", "eye": [0, 1, 2]}, {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2},
             {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2},
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
-            {"op": "ball.remove", "ball": 7}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
+            {"op": "ball.remove", "ball": 7}, {"op": "obstacle.move", "obstacle": 0, "position": [0, 1, 0]},
+            {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},
             {"op": "scene.join", "scene": "curtain"}])

@@ -33,7 +33,8 @@ export const SUBPROTOCOL = 'weft.v1';
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
  * @typedef {{shape: 'capsule', position: Vector, radius: number, length: number, quaternion: [number, number, number, number]}} Capsule w, x, y, z
  * @typedef {Plane|Box|Capsule} Obstacle in `scene`; skip shapes that you do not know
- * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[]}} Frame
+ * @typedef {{obstacle: number, position: Vector, quaternion: [number, number, number, number]}} MovedObstacle its place in `scene`; w, x, y, z
+ * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[], obstacles: MovedObstacle[]}} Frame obstacles: those that are not where `scene` says
  */
 
 /** A request refused by the server, or a connection that failed: `code` is one of PROTOCOL.md's, or `closed`, `timeout`, `connect`. */
@@ -55,6 +56,7 @@ const GROUP = 16;       // values that share a width
 const MAX_WIDTH = 18;   // residuals of 16-bit values, zig-zagged, lie below 2^18
 const MIN_SIDE = 2, MAX_SIDE = 1025;
 const BALL_BYTES = 24;
+const OBSTACLE_BYTES = 32;
 const MAX_FLOAT = 3.4028234663852886e38;
 
 /** @returns {never} */
@@ -73,7 +75,7 @@ export function decodeFrame(message) {
     : new DataView(message);
   if (view.byteLength === 0) malformed('empty message');
   /** @type {Frame} */
-  const frame = { stamp: /** @type {any} */ (null), cloths: [], balls: [] };
+  const frame = { stamp: /** @type {any} */ (null), cloths: [], balls: [], obstacles: [] };
   let last = false;
   for (let at = 0; at < view.byteLength;) {
     if (last) malformed('bytes after the last record');
@@ -93,7 +95,8 @@ export function decodeFrame(message) {
     const payload = new Uint8Array(view.buffer, view.byteOffset + at + headerBytes, payloadBytes);
     const type = view.getUint8(at + 5);
     if (type === 1) frame.cloths.push(readCloth(view, at, payload));
-    if (type === 2) frame.balls.push(...readBalls(view, at, payload));  // other types: of a later minor version
+    if (type === 2) frame.balls.push(...readBalls(view, at, payload));
+    if (type === 3) frame.obstacles.push(...readObstacles(view, at, payload));  // other types: of a later minor version
     at += headerBytes + payloadBytes;
   }
   if (!last) malformed('last record is missing');
@@ -188,13 +191,31 @@ function decodeGrid(payload, rows, cols, bits, origin, quantum) {
   return positions;
 }
 
-/** @returns {Ball[]} */
-function readBalls(view, at, payload) {
+/** The payload of a list of `things`, `size` bytes each. @returns {DataView} */
+function readList(view, at, payload, things, size) {
   if (view.getUint8(at + 10) !== 2) malformed(`codec ${view.getUint8(at + 10)}`);
   const count = view.getUint16(at + 40, true);
-  if (view.getUint16(at + 42, true) !== 1) malformed('balls in more than one row');
-  if (payload.length !== count * BALL_BYTES) malformed('balls of another length than their number');
-  const data = new DataView(payload.buffer, payload.byteOffset, payload.length);
+  if (view.getUint16(at + 42, true) !== 1) malformed(`${things} in more than one row`);
+  if (payload.length !== count * size) malformed(`${things} of another length than their number`);
+  return new DataView(payload.buffer, payload.byteOffset, payload.length);
+}
+
+/** @returns {MovedObstacle[]} */
+function readObstacles(view, at, payload) {
+  const data = readList(view, at, payload, 'obstacles', OBSTACLE_BYTES);
+  const obstacles = [];
+  for (let from = 0; from < payload.length; from += OBSTACLE_BYTES) {
+    const numbers = Array.from({ length: 7 }, (_, i) => data.getFloat32(from + 4 + 4 * i, true));
+    if (!numbers.every(Number.isFinite)) malformed('obstacle is not finite');
+    obstacles.push({ obstacle: data.getUint32(from, true), position: /** @type {Vector} */ (numbers.slice(0, 3)),
+      quaternion: /** @type {MovedObstacle['quaternion']} */ (numbers.slice(3)) });
+  }
+  return obstacles;
+}
+
+/** @returns {Ball[]} */
+function readBalls(view, at, payload) {
+  const data = readList(view, at, payload, 'balls', BALL_BYTES);
   const balls = [];
   for (let from = 0; from < payload.length; from += BALL_BYTES) {
     const [x, y, z, radius] = [4, 8, 12, 16].map((offset) => data.getFloat32(from + offset, true));
@@ -366,6 +387,11 @@ export class WeftClient {
   /** @param {number} ball */
   removeBall(ball) {
     return this.send('ball.remove', { ball });
+  }
+
+  /** @param {number} obstacle its place in `scene` @param {Vector} position @param {[number, number, number, number]} [quaternion] w, x, y, z; without one it keeps its turn */
+  moveObstacle(obstacle, position, quaternion) {
+    return this.send('obstacle.move', { obstacle, position, quaternion });
   }
 
   /** @param {Vector} direction any length but zero @param {number} speed m/s */

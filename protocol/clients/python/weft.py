@@ -47,6 +47,7 @@ class WeftError(Exception):
 
 _HEADER = struct.Struct("<4sBBHHBBIIIdIBBHHH3ffI")
 _BALL = struct.Struct("<I4fI")
+_OBSTACLE = struct.Struct("<I7f")
 _LAST, _PAUSED, _SLOW = 1, 2, 4
 _GROUP = 16      # values that share a width
 _MAX_WIDTH = 18  # residuals of 16-bit values, zig-zagged, lie below 2^18
@@ -88,10 +89,18 @@ class Ball:
 
 
 @dataclasses.dataclass
+class MovedObstacle:
+    obstacle: int  #: its place in the `scene` message
+    position: typing.Tuple[float, float, float]
+    quaternion: typing.Tuple[float, float, float, float]  #: w, x, y, z
+
+
+@dataclasses.dataclass
 class Frame:
     stamp: Stamp
     cloths: typing.List[Cloth]
     balls: typing.List[Ball]
+    obstacles: typing.List[MovedObstacle]  #: those that are not where `scene` says
 
 
 def _malformed(reason: str) -> WeftError:
@@ -124,7 +133,7 @@ def decode_frame(message: bytes) -> Frame:
         if not math.isfinite(time):
             raise _malformed("time is not finite")
         if frame is None:
-            frame = Frame(Stamp(f, epoch, time, server_ms, bool(flags & _PAUSED), bool(flags & _SLOW)), [], [])
+            frame = Frame(Stamp(f, epoch, time, server_ms, bool(flags & _PAUSED), bool(flags & _SLOW)), [], [], [])
         elif (f, epoch) != (frame.stamp.f, frame.stamp.epoch):
             raise _malformed("records of different steps")
         end = at + header_length + payload_length
@@ -135,10 +144,13 @@ def decode_frame(message: bytes) -> Frame:
                 raise _malformed(f"codec {codec}")
             positions = _decode_grid(payload, rows, cols, bits, (x, y, z), quantum)
             frame.cloths.append(Cloth(cloth, level, simulated_level, rows, cols, quantum, positions))
-        elif kind == 2:
+        elif kind in (2, 3):
             if codec != 2:
                 raise _malformed(f"codec {codec}")
-            frame.balls += _decode_balls(payload, rows, cols)
+            if kind == 2:
+                frame.balls += _decode_balls(payload, rows, cols)
+            else:
+                frame.obstacles += _decode_obstacles(payload, rows, cols)
         # Other kinds: of a later minor version.
     if not last:
         raise _malformed("last record is missing")
@@ -197,13 +209,26 @@ def _decode_grid(payload, rows, cols, bits, origin, quantum) -> array.array:
     return positions
 
 
-def _decode_balls(payload, rows, count) -> typing.List[Ball]:
+def _decode_list(payload, rows, count, things, item):
     if rows != 1:
-        raise _malformed("balls in more than one row")
-    if len(payload) != count * _BALL.size:
-        raise _malformed("balls of another length than their number")
+        raise _malformed(f"{things} in more than one row")
+    if len(payload) != count * item.size:
+        raise _malformed(f"{things} of another length than their number")
+    return item.iter_unpack(payload)
+
+
+def _decode_obstacles(payload, rows, count) -> typing.List[MovedObstacle]:
+    obstacles = []
+    for index, *numbers in _decode_list(payload, rows, count, "obstacles", _OBSTACLE):
+        if not all(map(math.isfinite, numbers)):
+            raise _malformed("obstacle is not finite")
+        obstacles.append(MovedObstacle(index, tuple(numbers[:3]), tuple(numbers[3:])))
+    return obstacles
+
+
+def _decode_balls(payload, rows, count) -> typing.List[Ball]:
     balls = []
-    for ident, x, y, z, radius, motion in _BALL.iter_unpack(payload):
+    for ident, x, y, z, radius, motion in _decode_list(payload, rows, count, "balls", _BALL):
         if not all(map(math.isfinite, (x, y, z, radius))):
             raise _malformed("ball is not finite")
         if motion > 1:
@@ -391,6 +416,10 @@ class Client:
 
     async def remove_ball(self, ball: int) -> dict:
         return await self.send("ball.remove", ball=ball)
+
+    async def move_obstacle(self, obstacle: int, position, *, quaternion=None) -> dict:
+        """An obstacle, by its place in `scene`, goes there within one step; quaternion (w, x, y, z) None: it keeps its turn."""
+        return await self.send("obstacle.move", obstacle=obstacle, position=position, quaternion=quaternion)
 
     async def set_wind(self, direction, speed: float) -> dict:
         """Direction of any length but zero; speed in m/s."""

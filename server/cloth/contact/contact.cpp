@@ -98,7 +98,9 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
   double reach = 0;  // of the nodes, beyond their last places, m
   for (const Solid& solid : solids) {
     const Vec3 move = solid.at(substep.to) - solid.at(substep.from);
-    const bool fast = longest + move.norm() > kSlowMove * inner_radius(solid.shape);
+    const double swing =
+        solid.turns() ? (substep.to - substep.from) * solid.turn.norm() * outer_radius(solid.shape) : 0;
+    const bool fast = longest + move.norm() + swing > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
     moving.push_back({&solid, solid.placed(substep.to), move, fast, solid.velocity, substep});
   }

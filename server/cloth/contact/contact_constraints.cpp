@@ -51,7 +51,7 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const auto hold = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
     const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
     const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
-    const Vec3 move = solid.at(substep.to) - solid.at(substep.from), start = at(position, touch.node),
+    const Vec3 start = at(position, touch.node), move = solid.move_of(start, substep.from, substep.to),
                guess = h * at(velocity, touch.node);
     const Vec3 slip = guess - move;
     const Vec3& normal = surface.normal;

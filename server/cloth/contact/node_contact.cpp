@@ -86,36 +86,51 @@ template <class Real>
 void NodeContact<Real>::hold_at(MovingSolid& still) {
   const Surface surface = still.shape.surface(position_);
   put_on(still, surface);
-  part_with(particles_.velocity_at(row_, col_) - still.velocity, still);
-  set_velocity(still.velocity);
+  part_with(particles_.velocity_at(row_, col_) - still.velocity_at(position_), still);
+  set_velocity(still.velocity_at(position_));
+}
+
+/// Where the node's way first meets the solid, as seen from where that ends up. Seen from one that turns the
+/// way is an arc, looked at in short chords.
+template <class Real>
+auto NodeContact<Real>::first_meeting(const MovingSolid& moving) const -> std::optional<Meeting> {
+  const int chords = moving.chords();
+  Vec3 from = position_ - move_ + moving.move_of(start_, 0);
+  if (moving.shape.contains(from)) return {};
+  for (int chord = 1; chord <= chords; ++chord) {
+    const double share = static_cast<double>(chord) / chords;
+    const Vec3 place = start_ + share * move_;
+    const Vec3 to = chord == chords ? position_ : Vec3(place + moving.move_of(place, share));
+    if (const std::optional<Hit> hit = moving.shape.first_hit(from, to)) {
+      return Meeting{(chord - 1 + hit->fraction) / chords, from + hit->fraction * (to - from), hit->normal};
+    }
+    from = to;
+  }
+  return {};
 }
 
 /// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
 template <class Real>
 bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches) {
-  std::optional<Hit> first;
+  std::optional<Meeting> first;
   std::size_t which = 0;
-  Vec3 begin(0, 0, 0);  // of the way, as seen from the solid where it ends up
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (!solids[i].fast) continue;
-    const Vec3 seen = position_ - move_ + solids[i].move;
-    if (solids[i].shape.contains(seen)) continue;
-    const std::optional<Hit> hit = solids[i].shape.first_hit(seen, position_);
-    if (!hit || (first && first->fraction <= hit->fraction)) continue;
-    first = hit;
+    const std::optional<Meeting> meeting = first_meeting(solids[i]);
+    if (!meeting || (first && first->fraction <= meeting->fraction)) continue;
+    first = meeting;
     which = i;
-    begin = seen;
   }
   if (!first) return false;
 
   MovingSolid& moving = solids[which];
-  const Vec3 way = position_ - begin, normal = first->normal;
-  const double inward = way.dot(normal);
-  const Vec3 along = way - inward * normal;
+  const Vec3 rest = position_ - first->place, normal = first->normal;
+  const double inward = rest.dot(normal);
+  const Vec3 along = rest - inward * normal;
   const double slide = along.norm();
   const double held = slide > 0 ? std::min(1.0, std::max(0.0, -moving.solid->friction * inward) / slide) : 0;
   lose_velocity(moving, normal);
-  const Vec3 end = begin + first->fraction * way + (1 - first->fraction) * (1 - held) * along;
+  const Vec3 end = first->place + (1 - held) * along;
   put_outside(moving.shape, end, normal, std::max(0.0, -moving.shape.surface(end).distance));
   touches.push_back(touch(*moving.solid));
   return true;
@@ -126,7 +141,7 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
 template <class Real>
 Vec3 NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal) {
   const Vec3 velocity = particles_.velocity_at(row_, col_);
-  const Vec3 relative = velocity - moving.velocity;
+  const Vec3 relative = velocity - moving.velocity_at(position_);
   const double inward = relative.dot(normal);
   if (!(inward < 0)) return Vec3::Zero();
   const Vec3 stopped = inward * normal, sliding = relative - stopped;

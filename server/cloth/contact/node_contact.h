@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "cloth/contact/contact.h"
@@ -13,6 +15,22 @@ struct MovingSolid {
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
   Vec3 velocity;      ///< with what the nodes so far gave it, m/s
   Substep substep;
+
+  /// Of what of it is at `point`, at the substep's end, m/s.
+  Vec3 velocity_at(const Vec3& point) const {
+    return solid->turns() ? Vec3(velocity + solid->spin.cross(point - shape.centre)) : velocity;
+  }
+  /// How far what is at `point` after that share of the substep goes with it until its end, m.
+  Vec3 move_of(const Vec3& point, double share) const {
+    if (!solid->turns()) return (1 - share) * move;
+    return solid->move_of(point, substep.from + share * (substep.to - substep.from), substep.to);
+  }
+  /// So many chords of a way seen from it differ from the arc by at most 1/800 of the distance from its axis.
+  int chords() const {
+    if (!solid->turns()) return 1;
+    constexpr double kAngle = 0.1;  // rad
+    return static_cast<int>(std::ceil((substep.to - substep.from) * solid->turn.norm() / kAngle));
+  }
 };
 
 /// One free node while its contacts in a substep are resolved.
@@ -40,6 +58,13 @@ class NodeContact {
   bool resolve(std::vector<MovingSolid>& solids, std::vector<Touch>& touches);
 
  private:
+  /// Of the node's way and a solid.
+  struct Meeting {
+    double fraction;  ///< of the way
+    Vec3 place;       ///< as seen from where the solid ends up
+    Vec3 normal;
+  };
+  std::optional<Meeting> first_meeting(const MovingSolid& moving) const;
   bool stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches);
   /// A solid the node was found in.
   struct Found {

@@ -168,6 +168,13 @@ Eigen::AlignedBox3d PlacedShape::bounds() const {
   return {centre - half, centre + half};
 }
 
+double outer_radius(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half.norm();
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->half + capsule->radius;
+  return kInfinity;
+}
+
 double inner_radius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.minCoeff();

@@ -55,5 +55,7 @@ struct PlacedShape {
 
 /// Half of the shape's smallest width, m: a node that moves much less in a substep cannot pass through.
 double inner_radius(const Shape& shape);
+/// Of the smallest ball around its centre that holds it, m. Infinite for a half-space.
+double outer_radius(const Shape& shape);
 
 }  // namespace weft

@@ -11,6 +11,10 @@ double depth(const PlacedShape& shape, const Vec3& point) {
 
 }  // namespace
 
+Eigen::Matrix3d Solid::turned(double part) const {
+  return Eigen::AngleAxisd(part * turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
 double Solid::led_out(const Vec3& node, double from, double to) const {
   const double share = steps_to_clear > 0 ? (to - from) / (steps_to_clear - from) : 1.0;
   return share * depth(placed(from), node);

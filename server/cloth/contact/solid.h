@@ -9,20 +9,22 @@ namespace weft {
 using ColliderId = std::uint32_t;
 inline constexpr ColliderId kFirstObstacle = 0x8000'0000;
 
-/// What a cloth meets in a step: a shape on a straight way. One that yields is the cloth's own copy: what the
-/// cloth gives it bends the way.
+/// What a cloth meets in a step: a shape on a straight way, perhaps turning as it goes. One that yields is
+/// the cloth's own copy: what the cloth gives it bends the way.
 struct Solid {
   ColliderId id = 0;
   Shape shape;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  double friction = 0;      ///< Coulomb's coefficient
-  double inverse_mass = 0;  ///< 1/kg; 0: nothing moves it but itself
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< own axes in the world, at the step's end
+  double friction = 0;                                     ///< Coulomb's coefficient
+  double inverse_mass = 0;                                 ///< 1/kg; 0: nothing moves it but itself
   /// Steps, this one counted, within which nodes that it was put onto are led out: pushed out at once they
   /// would fly off. 0: at once, as nothing can have come inside but by rounding.
   int steps_to_clear = 0;
   Vec3 start{0, 0, 0};     ///< centre at the step's start, m
   Vec3 position{0, 0, 0};  ///< at its end, m
   Vec3 velocity{0, 0, 0};  ///< along the way, m/s
+  Vec3 turn{0, 0, 0};      ///< in the step, about this axis by its length, rad
+  Vec3 spin{0, 0, 0};      ///< rad/s
 
   /// Takes up what the cloth gives it.
   bool yields() const { return inverse_mass > 0; }
@@ -37,11 +39,25 @@ struct Solid {
   }
   /// Centre at `fraction` (0..1) of the step.
   Vec3 at(double fraction) const { return start + fraction * (position - start); }
-  PlacedShape placed(double fraction) const { return {shape, at(fraction), rotation}; }
+  PlacedShape placed(double fraction) const {
+    return {shape, at(fraction), turns() ? turned(fraction - 1) * rotation : rotation};
+  }
+  bool turns() const { return !turn.isZero(0); }
+  /// How far a point goes that is at `point` at `from` and then goes with it, m.
+  Vec3 move_of(const Vec3& point, double from, double to) const {
+    const Vec3 move = at(to) - at(from);
+    if (!turns()) return move;
+    const Vec3 arm = point - at(from);
+    return move + turned(to - from) * arm - arm;
+  }
   /// How far a node that is at `node`, inside, when a part of the step begins is led out in it, m; 0 outside.
   double led_out(const Vec3& node, double from, double to) const;
   /// How deep, m, it then still is.
   double depth_left(const Vec3& node, double from, double to) const;
+
+ private:
+  /// What it turns by in that part of the step.
+  Eigen::Matrix3d turned(double part) const;
 };
 
 }  // namespace weft

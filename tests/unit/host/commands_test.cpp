@@ -84,6 +84,44 @@ TEST_F(Commands, BallsAreAddedMovedThrownAndRemoved) {
   EXPECT_TRUE(reader.frames.back().balls.empty());
 }
 
+scene::Scene with_a_box() {
+  scene::Scene scene = hung_cloth();
+  ObstacleDescription box;
+  box.shape = BoxDescription{.size = {0.1, 0.1, 0.1}};
+  box.position = {0, 5, 0};
+  scene.simulation.obstacles = {box, box};
+  return scene;
+}
+
+class ObstacleCommands : public Commands {
+ protected:
+  ObstacleCommands() : Commands(with_a_box()) {}
+};
+
+TEST_F(ObstacleCommands, MoveThemAndFramesTellOfThoseThatMoved) {
+  steps(1);
+  EXPECT_TRUE(reader.frames.back().obstacles.empty());
+  EXPECT_EQ(command(ObstacleMove{1, {0, 6, 0}, Turn{0, 1, 0, 0}}).at("op"), "ok");
+  EXPECT_EQ(command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1}).at("op"), "ok");  // both kinds of list
+  steps(1);
+  const FrameObstacle moved{1, {0, 6, 0}, {0, 1, 0, 0}};
+  ASSERT_EQ(reader.frames.back().obstacles.size(), 1u);
+  EXPECT_EQ(reader.frames.back().obstacles[0], moved);
+  EXPECT_EQ(reader.frames.back().balls.size(), 1u);
+  EXPECT_EQ(other.frames.back().obstacles.size(), 1u);
+  // Without a quaternion it keeps its turn.
+  EXPECT_EQ(command(ObstacleMove{1, {0, 7, 0}, {}}).at("op"), "ok");
+  steps(1);
+  EXPECT_EQ(reader.frames.back().obstacles.at(0), (FrameObstacle{1, {0, 7, 0}, {0, 1, 0, 0}}));
+  EXPECT_EQ(command(Reset{}).at("op"), "ok");
+  steps(1);
+  EXPECT_TRUE(reader.frames.back().obstacles.empty());
+  const json error = command(ObstacleMove{2, {}, {}});
+  EXPECT_EQ(error.at("code"), "not_found");
+  EXPECT_EQ(error.at("path"), "/obstacle");
+  EXPECT_EQ(error.at("message"), "/obstacle is 2; the scene has 2 obstacles, counted from 0");
+}
+
 TEST_F(Commands, OnABallThatIsNotThereAreNotFound) {
   for (const SceneCommand& each :
        std::vector<SceneCommand>{BallMove{5, {}}, BallThrow{5, {}}, BallRemove{5}}) {

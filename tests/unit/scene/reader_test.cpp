@@ -115,23 +115,41 @@ TEST(Reader, BallFields) {
 
 TEST(Reader, ReadsObstacles) {
   const auto obstacles = read_good("everything").simulation.obstacles;
-  ASSERT_EQ(obstacles.size(), 3u);
+  ASSERT_EQ(obstacles.size(), 5u);
   ASSERT_TRUE(std::holds_alternative<PlaneDescription>(obstacles[0].shape));
   EXPECT_LT((std::get<PlaneDescription>(obstacles[0].shape).normal - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
   EXPECT_EQ(obstacles[0].position, Vec3(0, -1, 0));
   EXPECT_EQ(obstacles[0].friction, 0.5);
-  ASSERT_TRUE(std::holds_alternative<BoxDescription>(obstacles[1].shape));
-  const auto& box = std::get<BoxDescription>(obstacles[1].shape);
+  ASSERT_TRUE(std::holds_alternative<BoxDescription>(obstacles[3].shape));
+  const auto& box = std::get<BoxDescription>(obstacles[3].shape);
   EXPECT_EQ(box.size, Vec3(1, 2, 4));
   EXPECT_LT((box.orientation * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
-  EXPECT_EQ(obstacles[1].friction, 0);
-  ASSERT_TRUE(std::holds_alternative<CapsuleDescription>(obstacles[2].shape));
-  const auto& capsule = std::get<CapsuleDescription>(obstacles[2].shape);
+  EXPECT_EQ(obstacles[3].friction, 0);
+  EXPECT_TRUE(obstacles[3].path.empty());
+  ASSERT_TRUE(std::holds_alternative<CapsuleDescription>(obstacles[4].shape));
+  const auto& capsule = std::get<CapsuleDescription>(obstacles[4].shape);
   EXPECT_EQ(capsule.radius, 0.05);
   EXPECT_EQ(capsule.length, 1.5);
   EXPECT_LT((capsule.orientation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm(), 1e-15);
-  EXPECT_EQ(obstacles[2].position, Vec3(1, 2, 3));
-  EXPECT_EQ(obstacles[2].friction, 0.25);
+  EXPECT_EQ(obstacles[4].position, Vec3(1, 2, 3));
+  EXPECT_EQ(obstacles[4].friction, 0.25);
+}
+
+TEST(Reader, PathsOfObstacles) {
+  const auto simulation = read_good("everything").simulation;
+  EXPECT_TRUE(simulation.cloths[0].pins[3].loop);
+  EXPECT_FALSE(simulation.cloths[0].pins[2].loop);
+  const ObstacleDescription& box = simulation.obstacles[1];
+  EXPECT_EQ(box.position, Vec3(0, 1, 0));  // where the path begins
+  EXPECT_TRUE(box.loop);
+  ASSERT_EQ(box.path.size(), 3u);
+  EXPECT_EQ(box.path[1].time, 2);
+  EXPECT_EQ(box.path[1].pose.position, Vec3(0, 2, 0));
+  EXPECT_LT((box.path[1].pose.orientation * Vec3(1, 0, 0) - Vec3(0, 0, -1)).norm(), 1e-15);
+  EXPECT_LT((box.path[2].pose.orientation * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);  // its own
+  const ObstacleDescription& plane = simulation.obstacles[2];
+  EXPECT_EQ(plane.path.at(1).pose.position, Vec3(0, -2, 0));
+  EXPECT_FALSE(plane.loop);
 }
 
 TEST(Reader, EffectsWindAndStepping) {
