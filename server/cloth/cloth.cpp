@@ -167,7 +167,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
                                    double dt) {
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
-  if (pins_.moving() && time < pins_.end_of_motion()) wake();
+  if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (sleep_.through(solids, wind) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
     const Rung rung = guard_.rung();

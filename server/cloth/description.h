@@ -2,6 +2,7 @@
 /// What a simulation is made from: plain values, checked by whoever fills them (server/scene for files).
 /// Field names equal the names in scene files.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -78,6 +79,8 @@ struct PinRegion {
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< in [0, 1]
   std::vector<Waypoint> path = {};  ///< how far they are from where they start, if they are moved
   bool loop = false;                ///< the path begins anew when it ends; it then ends where it begins
+  /// They go with this one of the simulation's obstacles, counted from 0, as if fixed to it; no path then.
+  std::optional<int> obstacle = {};
 };
 
 struct ClothDescription {

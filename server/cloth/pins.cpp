@@ -58,6 +58,12 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
       particles.inverse_mass.row(0)[node] = Real(0);
       set(particles.velocity, node, Vec3::Zero());
     }
+    if (region.obstacle) {
+      Fixed fixed;
+      fixed.obstacle.id = kFirstObstacle + static_cast<ColliderId>(*region.obstacle);
+      for (const std::size_t node : nodes) fixed.nodes.push_back({node, Vec3::Zero()});
+      fixed_.push_back(std::move(fixed));
+    }
     if (region.path.empty()) continue;
     Path path{region.path, region.loop, {}};
     const Vec3 offset = along_path(region.path, time, region.loop);
@@ -69,10 +75,39 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
 }
 
 template <class Real>
+bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time,
+                            double dt) {
+  begin_ = time;
+  step_ = dt;
+  bool move = !carried_.empty() && time < end_of_motion_;
+  for (Fixed& fixed : fixed_) {
+    const auto found = std::find_if(solids.begin(), solids.end(),
+                                    [&](const Solid& solid) { return solid.id == fixed.obstacle.id; });
+    if (found == solids.end()) continue;
+    fixed.obstacle = *found;
+    move = move || found->moves();
+    if (fixed.placed) continue;
+    const PlacedShape start = found->placed(0);
+    for (Carried& carried : fixed.nodes) {
+      carried.origin = start.rotation.transpose() * (get(particles.position, carried.node) - start.centre);
+    }
+    fixed.placed = true;
+  }
+  return move;
+}
+
+template <class Real>
 void Pins<Real>::carry(Particles<Real>& particles, double time) const {
   for (const Path& path : carried_) {
     const Vec3 offset = along_path(path.points, time, path.loops);
     for (const Carried& carried : path.nodes) set(particles.position, carried.node, carried.origin + offset);
+  }
+  for (const Fixed& fixed : fixed_) {
+    if (!fixed.placed || !fixed.obstacle.moves()) continue;
+    const PlacedShape now = fixed.obstacle.placed((time - begin_) / step_);
+    for (const Carried& carried : fixed.nodes) {
+      set(particles.position, carried.node, now.centre + now.rotation * carried.origin);
+    }
   }
 }
 

@@ -77,8 +77,7 @@ std::optional<std::vector<Sleep::Neighbour>> Sleep::neighbours(const std::vector
   for (const Solid& solid : solids) {
     const Eigen::AlignedBox3d bounds = solid.placed(1).bounds();
     if (!box_.intersects(bounds.merged(solid.placed(0).bounds()))) continue;
-    const bool moves = solid.position != solid.start || !solid.velocity.isZero(0) || solid.turns();
-    if (moves || solid.yields()) return std::nullopt;
+    if (solid.moves() || solid.yields()) return std::nullopt;
     near.push_back({solid.id, bounds.min(), bounds.max()});
   }
   return near;

@@ -99,6 +99,12 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report) {
     WaypointPath way = read_path(object, "offset");
     region.path = std::move(way.points);
     region.loop = way.loop;
+    int obstacle = 0;
+    if (object.integer("obstacle", obstacle, {0, double(kMaxColliders - 1)})) {
+      region.obstacle = obstacle;
+      if (!region.path.empty())
+        object.problem("obstacle", "is given beside path; what it is fixed to says where it goes");
+    }
     return region;
   }
   std::vector<std::string_view> names;

@@ -76,6 +76,20 @@ std::vector<EffectDescription> read_effects(Object& scene) {
   return effects;
 }
 
+/// Pins may only be fixed to obstacles that there are.
+void check_pins(const SimulationDescription& simulation, Report& report) {
+  for (std::size_t c = 0; c < simulation.cloths.size(); ++c) {
+    const std::vector<PinRegion>& pins = simulation.cloths[c].pins;
+    for (std::size_t p = 0; p < pins.size(); ++p) {
+      if (!pins[p].obstacle || *pins[p].obstacle < static_cast<int>(simulation.obstacles.size())) continue;
+      report.add("/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p) + "/obstacle",
+                 "is " + std::to_string(*pins[p].obstacle) + "; the scene has " +
+                     std::to_string(simulation.obstacles.size()) +
+                     " colliders that are no balls, counted from 0");
+    }
+  }
+}
+
 bool reads_wind(const EffectDescription& effect) {
   return std::holds_alternative<PaperWindEffect>(effect) ||
          std::holds_alternative<AerodynamicsEffect>(effect);
@@ -102,6 +116,7 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
       read_collider(value, path, report, simulation);
     });
+    check_pins(simulation, report);
     simulation.effects = read_effects(object);
     if (const json* wind = object.find("wind")) {
       simulation.wind = read_wind(*wind, "/wind", report);

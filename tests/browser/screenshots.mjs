@@ -7,11 +7,12 @@ import {fileURLToPath} from 'node:url';
 import {openPage, startServer, until} from './harness.mjs';
 
 const folder = process.env.WEFT_SCREENSHOTS;
+const kGallery = {flag: 3, curtain: 3, tablecloth: 3, silk: 6, cape: 7, sail: 6, trampoline: 1.1, 'washing-line': 5};
 const kWindow = {viewport: {width: 1280, height: 800}};
 
 test('screenshots', {timeout: 900_000}, async () => {
   await mkdir(folder, {recursive: true});
-  const server = await startServer(['flag', fileURLToPath(new URL('scenes/small.json', import.meta.url)), 'zheng2020-distance', 'zheng2020-ball']);
+  const server = await startServer([...Object.keys(kGallery), fileURLToPath(new URL('scenes/small.json', import.meta.url)), 'zheng2020-distance', 'zheng2020-ball']);
   const open = async (scene, options = {}) => {
     const {page} = await openPage(`${server.address}/?scene=${scene}`, {...kWindow, ...options});
     await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
@@ -62,6 +63,13 @@ test('screenshots', {timeout: 900_000}, async () => {
   await ball.keyboard.press('r');
   await save(ball, 'ball', 9);
   await ball.close();
+
+  // The gallery: each preset at its own moment, s.
+  for (const [scene, seconds] of Object.entries(kGallery)) {
+    const preset = await open(scene, {viewport: {width: 640, height: 640}});
+    await save(preset, `gallery-${scene}`, seconds);
+    await preset.close();
+  }
 
   // A finger's width for each button, and the cloth above the folded panel.
   const phone = await open('flag', {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true});

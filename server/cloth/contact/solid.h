@@ -43,6 +43,7 @@ struct Solid {
     return {shape, at(fraction), turns() ? turned(fraction - 1) * rotation : rotation};
   }
   bool turns() const { return !turn.isZero(0); }
+  bool moves() const { return position != start || !velocity.isZero(0) || turns(); }
   /// How far a point goes that is at `point` at `from` and then goes with it, m.
   Vec3 move_of(const Vec3& point, double from, double to) const {
     const Vec3 move = at(to) - at(from);

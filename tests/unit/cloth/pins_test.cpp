@@ -76,12 +76,43 @@ TEST(Pins, HoldARegionOrTheNearestNode) {
 TEST(Pins, CarryFromWhereTheyAreAtTheTime) {
   // Made in the path's middle, at offset (1, 0, 0): at its end, (2, 0, 0), they are 1 m further.
   Particles<double> sheet = test::flat_sheet<double>(9, 9, {2, 2});
-  const Pins<double> pins({{0, 0, 0, 0, {{1, {0, 0, 0}}, {3, {2, 0, 0}}}}}, 2, sheet);
+  Pins<double> pins({{0, 0, 0, 0, {{1, {0, 0, 0}}, {3, {2, 0, 0}}}}}, 2, sheet);
   EXPECT_TRUE(pins.moving());
-  EXPECT_EQ(pins.end_of_motion(), 3);
+  EXPECT_FALSE(pins.begin_step(sheet, {}, 3, 1));
+  EXPECT_TRUE(pins.begin_step(sheet, {}, 2, 1));
   pins.carry(sheet, 3);
   EXPECT_EQ(get(sheet.position, 0, 0), Vec3(0, 1, 0));
   EXPECT_EQ(get(sheet.position, 0, 1), Vec3(-0.75, 1, 0));
+}
+
+TEST(Pins, FixedToAnObstacleGoAndTurnWithIt) {
+  // A quarter turn about y, half a metre up: from (-1, 1, 0), seen from (0, 1, 0) at (-1, 0, 0), to (0, 0,
+  // 1).
+  Particles<double> sheet = test::flat_sheet<double>(9, 9, {2, 2});
+  PinRegion corner{0, 0, 0, 0};
+  corner.obstacle = 1;
+  Pins<double> pins({corner}, 0, sheet);
+  EXPECT_TRUE(pins.moving());
+  Solid other, body;
+  other.id = kFirstObstacle;
+  body.id = kFirstObstacle + 1;
+  body.shape = Capsule{1, 0.2};
+  body.start = {0, 1, 0};
+  body.position = {0, 1.5, 0};
+  body.velocity = {0, 1, 0};
+  body.turn = {0, std::acos(-1.0) / 2, 0};
+  body.rotation = Eigen::AngleAxisd(body.turn.y(), Vec3::UnitY()).toRotationMatrix();
+  EXPECT_TRUE(pins.begin_step(sheet, {other, body}, 3, 0.5));
+  pins.carry(sheet, 3);
+  EXPECT_LT((get(sheet.position, 0, 0) - Vec3(-1, 1, 0)).norm(), 1e-14);
+  pins.carry(sheet, 3.5);
+  EXPECT_LT((get(sheet.position, 0, 0) - Vec3(0, 1.5, 1)).norm(), 1e-14);
+  // Where it stands now it stays.
+  body.start = body.position;
+  body.velocity = body.turn = Vec3::Zero();
+  EXPECT_FALSE(pins.begin_step(sheet, {other, body}, 3.5, 0.5));
+  pins.carry(sheet, 4);
+  EXPECT_LT((get(sheet.position, 0, 0) - Vec3(0, 1.5, 1)).norm(), 1e-14);
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ TEST(BadScenes, MissingFilesNameThePresets) {
   EXPECT_EQ(
       problems_of(load("no-such-scene")),
       "no-such-scene: No such file or directory (neither a file nor a preset; the presets are flag, curtain, "
-      "tablecloth, swing, zheng2020-wind, zheng2020-distance, zheng2020-ball)\n");
+      "tablecloth, silk, cape, sail, trampoline, washing-line, swing, zheng2020-wind, zheng2020-distance, "
+      "zheng2020-ball)\n");
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Reader, ClothFields) {
   EXPECT_EQ(cloth.discretization, Discretization::paper);
   // A quarter turn about y takes the sheet's x axis to -z; the axis need not be of length 1.
   EXPECT_LT((cloth.orientation * Vec3::UnitX() - Vec3(0, 0, -1)).norm(), 1e-15);
-  ASSERT_EQ(cloth.pins.size(), 4u);
+  ASSERT_EQ(cloth.pins.size(), 5u);
   EXPECT_TRUE(is(cloth.pins[0], 0, 0, 0, 0));  // top_left
   EXPECT_TRUE(is(cloth.pins[1], 1, 1, 0, 1));  // right
   EXPECT_TRUE(is(cloth.pins[2], 0.25, 0.25, 0.75, 0.75));
@@ -139,6 +139,8 @@ TEST(Reader, PathsOfObstacles) {
   const auto simulation = read_good("everything").simulation;
   EXPECT_TRUE(simulation.cloths[0].pins[3].loop);
   EXPECT_FALSE(simulation.cloths[0].pins[2].loop);
+  EXPECT_FALSE(simulation.cloths[0].pins[3].obstacle);
+  EXPECT_EQ(simulation.cloths[0].pins[4].obstacle, 2);
   const ObstacleDescription& box = simulation.obstacles[1];
   EXPECT_EQ(box.position, Vec3(0, 1, 0));  // where the path begins
   EXPECT_TRUE(box.loop);
