@@ -7,7 +7,7 @@ build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libtbb-dev
 runtime_packages=(libfcl0.7 libtbb12 libspdlog1.10 libtinygltf2d)
 # To test it: C++ test libraries, the Python client's only dependency, a browser, an image reader.
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapidcheck-dev libvalijson-dev
-               python3 python3-websockets chromium fonts-dejavu-core)
+               python3 python3-websockets valgrind chromium fonts-dejavu-core)
 # To check it: format and lint.
 lint_packages=(clang clang-format clang-tidy)
 

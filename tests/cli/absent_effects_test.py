@@ -1,0 +1,70 @@
+"""An effect that a scene does not call for costs nothing: none of its functions is ever entered.
+
+Each effect's scene is run under callgrind with it and without it. With it its class is entered, which shows that the test would see
+it; without it neither the class nor a kernel of its own is.
+"""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+WEFT = os.environ["WEFT_BINARY"]
+SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "server" / "scene" / "scene.schema.json"
+
+# Effect: its fields, and patterns of functions that are entered with it and never without it. A kernel's name
+# without "clone" chooses among its instruction sets when the program is loaded.
+EFFECTS = {
+    "gravity": ({}, ["weft::Gravity<"]),
+    "damping": ({}, ["weft::Damping<"]),
+    "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
+    "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_pressure.*clone"]),
+}
+
+
+def functions_entered(effects, folder, colliders=()):
+    """Names of all functions entered while a small hung sheet is stepped 12 times with these effects."""
+    scene = {"title": "hung", "effects": effects, "integrator": {"type": "bdf2"},
+             "colliders": list(colliders),
+             "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4}}]}
+    if any(effect["type"] in ("paper_wind", "aerodynamics") for effect in effects):
+        scene["wind"] = {"speed": 3}
+    file, out = folder / "scene.json", folder / "callgrind.out"
+    file.write_text(json.dumps(scene))
+    subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={out}", WEFT, "run", str(file), "--frames", "12",
+                    "--level", "4"], check=True, stdout=subprocess.DEVNULL)
+    return set(re.findall(r"^c?fn=\(\d+\) (.+)$", out.read_text(), re.MULTILINE))
+
+
+class AbsentEffects(unittest.TestCase):
+    def test_every_effect_of_the_schema_is_tested(self):
+        effects = json.loads(SCHEMA.read_text())["properties"]["effects"]["items"]["oneOf"]
+        self.assertEqual({effect["$ref"].split("/")[-1] for effect in effects}, set(EFFECTS))
+
+    def test_none_is_entered_where_it_is_absent(self):
+        # Two runs show all: one half of the effects, then the other.
+        names = sorted(EFFECTS)
+        with tempfile.TemporaryDirectory() as folder:
+            for present in (names[::2], names[1::2]):
+                entered = functions_entered([{"type": name, **EFFECTS[name][0]} for name in present], pathlib.Path(folder))
+                self.assertTrue(any("Implicit<float>::advance" in name for name in entered), "nothing was stepped")
+                for name in names:
+                    for mark in EFFECTS[name][1]:
+                        seen = sorted(function for function in entered if re.search(mark, function))
+                        with self.subTest(effect=name, mark=mark, present=present):
+                            self.assertEqual(bool(seen), name in present, seen)
+
+    def test_contact_is_entered_only_where_there_are_colliders(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for colliders in ([], [{"type": "ball", "position": [0, -5, 0], "radius": 0.1}]):
+                entered = functions_entered([{"type": "gravity"}], pathlib.Path(folder), colliders)
+                for mark in ("weft::Contact<float>::", "weft::BroadPhase<float>::", "fcl::"):
+                    seen = sorted(function for function in entered if re.search(mark, function))
+                    with self.subTest(mark=mark, colliders=len(colliders)):
+                        self.assertEqual(bool(seen), bool(colliders), seen)
+
+
+if __name__ == "__main__":
+    unittest.main()
