@@ -249,7 +249,7 @@ struct Operation {
 /// In the order of Command's alternatives.
 const std::vector<Operation>& operations() {
   constexpr auto kRequired = Presence::required, kOptional = Presence::optional;
-  constexpr Bounds kCharacters{1, 64}, kId{0, 4294967295};
+  constexpr Bounds kCharacters{1, 64}, kId{0, 4294967295}, kShare{0, 1};
   constexpr Bounds kEye{-1e6, 1e6, "m"}, kPlace{-1e3, 1e3, "m"}, kVelocity{-200, 200, "m/s"};
   static const std::vector<Operation> table{
       {"hello",
@@ -287,6 +287,25 @@ const std::vector<Operation>& operations() {
         field<&ObstacleMove::position>("position", kRequired, kPlace),
         field<&ObstacleMove::quaternion>("quaternion", kOptional, {-1e6, 1e6})},
        normalise_turn},
+      {"cloth.grab",
+       ClothGrab{},
+       {field<&ClothGrab::cloth>("cloth", kRequired, kId), field<&ClothGrab::u>("u", kRequired, kShare),
+        field<&ClothGrab::v>("v", kRequired, kShare),
+        field<&ClothGrab::position>("position", kOptional, kPlace),
+        field<&ClothGrab::max_force>("max_force", kOptional, {1e-3, 1e4, "N"})}},
+      {"grab.move",
+       GrabMove{},
+       {field<&GrabMove::grab>("grab", kRequired, kId),
+        field<&GrabMove::position>("position", kRequired, kPlace)}},
+      {"grab.release", GrabRelease{}, {field<&GrabRelease::grab>("grab", kRequired, kId)}},
+      {"cloth.pin",
+       ClothPin{},
+       {field<&ClothPin::cloth>("cloth", kRequired, kId), field<&ClothPin::u>("u", kRequired, kShare),
+        field<&ClothPin::v>("v", kRequired, kShare)}},
+      {"cloth.unpin",
+       ClothUnpin{},
+       {field<&ClothUnpin::cloth>("cloth", kRequired, kId), field<&ClothUnpin::u>("u", kRequired, kShare),
+        field<&ClothUnpin::v>("v", kRequired, kShare)}},
       {"wind.set",
        WindSet{},
        {field<&WindSet::direction>("direction", kRequired, {-1e6, 1e6}),

@@ -81,6 +81,7 @@ std::string welcome_text(std::string_view server_version, const Limits& limits) 
                  {"json_depth", limits.json_depth},
                  {"messages_per_second", limits.messages_per_second},
                  {"balls", limits.balls},
+                 {"grabs", limits.grabs},
                  {"viewers", limits.viewers},
                  {"frame_bytes", limits.frame_bytes}}}});
 }

@@ -23,6 +23,7 @@ struct Limits {
   int json_depth = 16;
   int messages_per_second = 120;
   int balls = 64;
+  int grabs = 64;
   int viewers = 256;
   std::size_t frame_bytes = 1048576;
 };
@@ -66,6 +67,27 @@ struct ObstacleMove {
   Vector position{};
   std::optional<Turn> quaternion;  ///< unit length after parsing; without one it keeps its turn
 };
+struct ClothGrab {
+  std::uint32_t cloth = 0;
+  double u = 0, v = 0;
+  std::optional<Vector> position;  ///< of the hand; without one where the cloth is
+  double max_force = 100;
+};
+struct GrabMove {
+  std::uint32_t grab = 0;
+  Vector position{};
+};
+struct GrabRelease {
+  std::uint32_t grab = 0;
+};
+struct ClothPin {
+  std::uint32_t cloth = 0;
+  double u = 0, v = 0;
+};
+struct ClothUnpin {
+  std::uint32_t cloth = 0;
+  double u = 0, v = 0;
+};
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
@@ -86,9 +108,9 @@ struct Ping {
   double t = 0;
 };
 
-using Command =
-    std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
-                 ObstacleMove, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
+                             BallRemove, ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
+                             WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -163,6 +163,71 @@ void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
 }
 
 template <class Real>
+void Cloth<Real>::grab(const Grab& grab) {
+  if (grabs_ == nullptr) {
+    auto grabs = std::make_unique<Grabs<Real>>();
+    grabs_ = grabs.get();
+    effects_.push_back(std::move(grabs));
+  }
+  grabs_->add(grab);
+  wake();
+}
+
+template <class Real>
+bool Cloth<Real>::move_grab(GrabId id, const Vec3& hand) {
+  if (grabs_ == nullptr || !grabs_->move(id, hand)) return false;
+  wake();
+  return true;
+}
+
+template <class Real>
+bool Cloth<Real>::release(GrabId id) {
+  if (grabs_ == nullptr || !grabs_->release(id)) return false;
+  if (grabs_->empty()) {
+    std::erase_if(effects_, [&](const auto& effect) { return effect.get() == grabs_; });
+    grabs_ = nullptr;
+  }
+  wake();
+  return true;
+}
+
+template <class Real>
+const std::vector<Grab>& Cloth<Real>::grabs() const {
+  static const std::vector<Grab> none;
+  return grabs_ == nullptr ? none : grabs_->all();
+}
+
+template <class Real>
+void Cloth<Real>::pin(const Vec2& at) {
+  description_.pins.push_back({at.x(), at.x(), at.y(), at.y()});
+  set_pins();
+}
+
+template <class Real>
+bool Cloth<Real>::unpin(const Vec2& at) {
+  std::vector<PinRegion>& pins = description_.pins;
+  if (pins.empty()) return false;
+  const auto distance = [&](const PinRegion& pin) {
+    const Vec2 nearest(std::clamp(at.x(), pin.u_min, pin.u_max), std::clamp(at.y(), pin.v_min, pin.v_max));
+    return (nearest - at).cwiseProduct(description_.size).norm();
+  };
+  pins.erase(std::min_element(pins.begin(), pins.end(), [&](const PinRegion& a, const PinRegion& b) {
+    return distance(a) < distance(b);
+  }));
+  set_pins();
+  return true;
+}
+
+template <class Real>
+void Cloth<Real>::set_pins() {
+  guard_.repair(particles_);
+  pins_ = Pins<Real>(description_.pins, time_, particles_);
+  integrator_->restart();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind& wind, double time,
                                    double dt) {
   using Verdict = typename StepGuard<Real>::Verdict;

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cloth/colliders.h"
+#include "cloth/effects/grab.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
@@ -32,6 +33,17 @@ class Cloth {
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
   void set_integrator(const IntegratorDescription& integrator);
+  /// A hand takes hold; the cloth wakes. Ids are the caller's and differ.
+  void grab(const Grab& grab);
+  /// False if there is no such grab.
+  bool move_grab(GrabId id, const Vec3& hand);
+  bool release(GrabId id);
+  /// None unless something is held.
+  const std::vector<Grab>& grabs() const;
+  /// Holds what is at (u, v), and nodes around it as a pin of the description does, where it is now.
+  void pin(const Vec2& at);
+  /// Lets go of the pin that holds (u, v), or of the nearest one; false if there is none.
+  bool unpin(const Vec2& at);
   /// Adds an effect of the caller's own to the description's. If its forces change while the cloth sleeps it
   /// is the caller who wakes it. Tests inject faults so.
   void add_effect(std::unique_ptr<Effect<Real>> effect);
@@ -65,6 +77,7 @@ class Cloth {
   void hand_to_guard();
   void make_springs();
   Contact<Real>& contact();
+  void set_pins();
   AdvanceReport attempt(const Wind& wind, double time, double dt);
   /// Nothing remembers a step that was taken back.
   void forget_attempt();
@@ -78,6 +91,7 @@ class Cloth {
   double time_ = 0;  ///< s, at the end of the last step that was made
   Springs<Real> springs_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;
+  Grabs<Real>* grabs_ = nullptr;                  ///< one of effects_ as long as something is held
   std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;

@@ -40,6 +40,7 @@ void Simulation<Real>::reset() {
   cloths_ = make_cloths<Real>(description_);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;
+  next_grab_ = 1;
   guard_events_.clear();
   profile_ = StepProfile{};
 }
@@ -47,6 +48,25 @@ void Simulation<Real>::reset() {
 template <class Real>
 void Simulation<Real>::set_integrator(const IntegratorDescription& integrator) {
   for (Cloth<Real>& cloth : cloths_) cloth.set_integrator(integrator);
+}
+
+template <class Real>
+GrabId Simulation<Real>::grab(std::size_t cloth, const Vec2& at, const std::optional<Vec3>& hand,
+                              double max_force) {
+  const Vec3 place = Grabs<Real>::place(cloths_[cloth].particles(), description_.cloths[cloth], at);
+  cloths_[cloth].grab({next_grab_, at, hand.value_or(place), max_force});
+  return next_grab_++;
+}
+
+template <class Real>
+bool Simulation<Real>::move_grab(GrabId id, const Vec3& hand) {
+  return std::any_of(cloths_.begin(), cloths_.end(),
+                     [&](Cloth<Real>& cloth) { return cloth.move_grab(id, hand); });
+}
+
+template <class Real>
+bool Simulation<Real>::release(GrabId id) {
+  return std::any_of(cloths_.begin(), cloths_.end(), [&](Cloth<Real>& cloth) { return cloth.release(id); });
 }
 
 template <class Real>

@@ -70,6 +70,14 @@ class Simulation {
     return colliders_.move_obstacle(index, target);
   }
 
+  /// A hand takes hold of a cloth at (u, v), where it is now unless the hand is elsewhere, and pulls with at
+  /// most `max_force`, N.
+  GrabId grab(std::size_t cloth, const Vec2& at, const std::optional<Vec3>& hand, double max_force);
+  bool move_grab(GrabId id, const Vec3& hand);
+  bool release(GrabId id);
+  void pin(std::size_t cloth, const Vec2& at) { cloths_[cloth].pin(at); }
+  bool unpin(std::size_t cloth, const Vec2& at) { return cloths_[cloth].unpin(at); }
+
   /// One fixed step of description().time_step seconds.
   void step();
   /// Back to the description's start, at the description's initial levels.
@@ -89,6 +97,7 @@ class Simulation {
   std::vector<Cloth<Real>> cloths_;
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;
+  GrabId next_grab_ = 1;
   std::vector<GuardEvent> guard_events_;
   StepProfile profile_;
 };

@@ -46,7 +46,11 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
 }
 
 void LiveScene::remove_viewer(const Viewer* viewer, std::uint64_t visit) {
-  std::erase_if(seats_, [&](const Seat& seat) { return seat.viewer.get() == viewer && seat.visit == visit; });
+  std::erase_if(seats_, [&](const Seat& seat) {
+    if (seat.viewer.get() != viewer || seat.visit != visit) return false;
+    for (const GrabId grab : seat.grabs) simulation_.release(grab);  // its hands are gone
+    return true;
+  });
 }
 
 void LiveScene::look(Seat& seat) {

@@ -21,8 +21,10 @@ namespace weft::host {
 /// The commands that are the scene's to carry out; the rest is answered by Connection.
 using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
-                 protocol::BallRemove, protocol::ObstacleMove, protocol::WindSet, protocol::Quality,
-                 protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
+                 protocol::BallRemove, protocol::ObstacleMove, protocol::ClothGrab, protocol::GrabMove,
+                 protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin, protocol::WindSet,
+                 protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset,
+                 protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -33,6 +35,8 @@ class LiveScene {
  public:
   /// A dynamic ball farther from the origin than this along an axis has left and is removed, m.
   static constexpr double kBallRange = 1000.0;
+  /// Of a cloth, the scene's own and those that viewers set.
+  static constexpr std::size_t kMaxPins = 256;
   /// Steps that may be asked for at once and wait.
   static constexpr int kMaxWaitingSteps = 600;
 
@@ -79,6 +83,11 @@ class LiveScene {
   Outcome carry_out(const protocol::BallThrow& thrown, Seat& seat);
   Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
   Outcome carry_out(const protocol::ObstacleMove& move, Seat& seat);
+  Outcome carry_out(const protocol::ClothGrab& grab, Seat& seat);
+  Outcome carry_out(const protocol::GrabMove& move, Seat& seat);
+  Outcome carry_out(const protocol::GrabRelease& release, Seat& seat);
+  Outcome carry_out(const protocol::ClothPin& pin, Seat& seat);
+  Outcome carry_out(const protocol::ClothUnpin& unpin, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
   Outcome carry_out(const protocol::Quality& quality, Seat& seat);
   Outcome carry_out(const protocol::Cost& cost, Seat& seat);
@@ -87,6 +96,7 @@ class LiveScene {
   Outcome carry_out(const protocol::Reset& reset, Seat& seat);
   Outcome carry_out(const protocol::Step& step, Seat& seat);
 
+  std::optional<protocol::Error> missing_cloth(std::uint32_t cloth) const;
   void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
   void request_levels();
   void use_chosen_integrator();

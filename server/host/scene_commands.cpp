@@ -21,6 +21,11 @@ Error no_such_ball(BallId id) {
   return refused("not_found", "/ball", "/ball is " + std::to_string(id) + "; the scene has no such ball");
 }
 
+Error no_such_grab(GrabId id) {
+  return refused("not_found", "/grab",
+                 "/grab is " + std::to_string(id) + "; this viewer holds nothing by that id");
+}
+
 bool has_wind(const SimulationDescription& description) {
   return std::any_of(description.effects.begin(), description.effects.end(),
                      [](const EffectDescription& effect) {
@@ -111,6 +116,61 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat
   return json::object();
 }
 
+std::optional<Error> LiveScene::missing_cloth(std::uint32_t cloth) const {
+  const std::size_t cloths = simulation_.cloths().size();
+  if (cloth < cloths) return {};
+  return refused("not_found", "/cloth",
+                 "/cloth is " + std::to_string(cloth) + "; the scene has " + std::to_string(cloths) +
+                     " cloths, counted from 0");
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::ClothGrab& grab, Seat& seat) {
+  if (const auto missing = missing_cloth(grab.cloth)) return *missing;
+  std::size_t held = 0;
+  for (const Cloth<float>& cloth : simulation_.cloths()) held += cloth.grabs().size();
+  if (held >= static_cast<std::size_t>(limits_.grabs)) {
+    return refused(
+        "limit", "",
+        "the scene's cloths are held at " + std::to_string(limits_.grabs) + " points, the most allowed");
+  }
+  std::optional<Vec3> hand;
+  if (grab.position) hand = to_vec3(*grab.position);
+  const GrabId id = simulation_.grab(grab.cloth, {grab.u, grab.v}, hand, grab.max_force);
+  seat.grabs.push_back(id);
+  return json{{"grab", id}};
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::GrabMove& move, Seat& seat) {
+  if (std::find(seat.grabs.begin(), seat.grabs.end(), move.grab) == seat.grabs.end()) {
+    return no_such_grab(move.grab);
+  }
+  simulation_.move_grab(move.grab, to_vec3(move.position));
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::GrabRelease& release, Seat& seat) {
+  if (std::erase(seat.grabs, release.grab) == 0) return no_such_grab(release.grab);
+  simulation_.release(release.grab);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::ClothPin& pin, Seat&) {
+  if (const auto missing = missing_cloth(pin.cloth)) return *missing;
+  if (simulation_.cloths()[pin.cloth].description().pins.size() >= kMaxPins) {
+    return refused("limit", "", "the cloth has " + std::to_string(kMaxPins) + " pins, the most allowed");
+  }
+  simulation_.pin(pin.cloth, {pin.u, pin.v});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&) {
+  if (const auto missing = missing_cloth(unpin.cloth)) return *missing;
+  if (!simulation_.unpin(unpin.cloth, {unpin.u, unpin.v})) {
+    return refused("not_found", "/cloth", "/cloth is " + std::to_string(unpin.cloth) + "; it has no pins");
+  }
+  return json::object();
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (!has_wind(scene_.simulation)) {
     return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
@@ -162,6 +222,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   simulation_.reset();
+  for (Seat& seat : seats_) seat.grabs.clear();
   quality_.restarted();
   guard_ = {};
   waiting_steps_ = 0;

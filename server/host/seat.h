@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloth/effects/grab.h"
 #include "cloth/level_policy.h"
 #include "cloth/vec3.h"
 #include "host/viewer.h"
@@ -19,8 +20,9 @@ struct Seat {
   std::vector<int>
       policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
   std::vector<int> levels;  ///< what it is sent
-  bool wants_curve = false;  ///< asked for the cost, and is told when it is known
-  bool wants_frame = true;   ///< even if the scene did not change
+  std::vector<GrabId> grabs;  ///< what it holds
+  bool wants_curve = false;   ///< asked for the cost, and is told when it is known
+  bool wants_frame = true;    ///< even if the scene did not change
 };
 
 }  // namespace weft::host

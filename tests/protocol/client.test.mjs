@@ -99,7 +99,7 @@ test('in Node the package ws is taken from where the client is installed', { ski
 });
 
 test('each method sends its operation', async () => {
-  const answers = { 'ball.add': { ball: 7 }, 'scene.list': { scenes: [{ name: 'flag' }] }, ping: { op: 'pong' } };
+  const answers = { 'ball.add': { ball: 7 }, 'cloth.grab': { grab: 3 }, 'scene.list': { scenes: [{ name: 'flag' }] }, ping: { op: 'pong' } };
   const server = await serve({ answer: ({ op }) => answers[op] ?? {} });
   const client = await join(server, { window: 0 });
   await client.camera({ distance: 5 });
@@ -110,6 +110,11 @@ test('each method sends its operation', async () => {
   await client.removeBall(7);
   await client.moveObstacle(0, [0, 1, 0]);
   await client.moveObstacle(1, [0, 1, 0], [0, 1, 0, 0]);
+  assert.equal(await client.grab({ cloth: 0, u: 0.5, v: 1, maxForce: 20 }), 3);
+  await client.moveGrab(3, [0, 1, 0]);
+  await client.release(3);
+  await client.pin(0, 0.5, 1);
+  await client.unpin(0, 0.5, 1);
   await client.setWind([0, 0, -1], 3);
   await client.setQuality({ maxError: 0.01 });
   await client.setQuality({ maxMs: 2 });
@@ -129,6 +134,8 @@ test('each method sends its operation', async () => {
     { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
+    { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
+    { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
     { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
     { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);

@@ -141,7 +141,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "client": "test", "caps": ["flow.ack"], "window": 3})
 
     async def test_each_method_sends_its_operation(self):
-        answers = {"ball.add": {"ball": 7}, "scene.list": {"scenes": [{"name": "flag"}]}, "ping": {"op": "pong"}}
+        answers = {"ball.add": {"ball": 7}, "cloth.grab": {"grab": 3}, "scene.list": {"scenes": [{"name": "flag"}]}, "ping": {"op": "pong"}}
         async with Server(lambda message: answers.get(message["op"], {})) as server, await weft.connect(server.url, window=0) as scene:
             await scene.camera(distance=5)
             await scene.camera(eye=[0, 1, 2])
@@ -152,6 +152,11 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.remove_ball(7)
             await scene.move_obstacle(0, [0, 1, 0])
             await scene.move_obstacle(1, (0, 1, 0), quaternion=(0, 1, 0, 0))
+            self.assertEqual(await scene.grab(0, 0.5, 1, max_force=20), 3)
+            await scene.move_grab(3, [0, 1, 0])
+            await scene.release(3)
+            await scene.pin(0, 0.5, 1)
+            await scene.unpin(0, 0.5, 1)
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
@@ -172,7 +177,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2},
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
             {"op": "ball.remove", "ball": 7}, {"op": "obstacle.move", "obstacle": 0, "position": [0, 1, 0]},
-            {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
+            {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]},
+            {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
+            {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
+            {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},
             {"op": "scene.join", "scene": "curtain"}])

@@ -394,6 +394,35 @@ export class WeftClient {
     return this.send('obstacle.move', { obstacle, position, quaternion });
   }
 
+  /**
+   * Takes hold of a cloth at (u, v): it follows the hand by at most a force. Lets go when the connection closes.
+   * @param {{cloth: number, u: number, v: number, position?: Vector, maxForce?: number}} grab position: the hand's, m, or where the cloth is; N
+   * @returns {Promise<number>} its id
+   */
+  async grab({ cloth, u, v, position, maxForce }) {
+    return (await this.send('cloth.grab', { cloth, u, v, position, max_force: maxForce })).grab;
+  }
+
+  /** @param {number} grab @param {Vector} position */
+  moveGrab(grab, position) {
+    return this.send('grab.move', { grab, position });
+  }
+
+  /** @param {number} grab */
+  release(grab) {
+    return this.send('grab.release', { grab });
+  }
+
+  /** Holds the node nearest to (u, v) where it is. @param {number} cloth @param {number} u @param {number} v */
+  pin(cloth, u, v) {
+    return this.send('cloth.pin', { cloth, u, v });
+  }
+
+  /** Takes away the pin that holds (u, v), or the nearest one. @param {number} cloth @param {number} u @param {number} v */
+  unpin(cloth, u, v) {
+    return this.send('cloth.unpin', { cloth, u, v });
+  }
+
   /** @param {Vector} direction any length but zero @param {number} speed m/s */
   setWind(direction, speed) {
     return this.send('wind.set', { direction, speed });

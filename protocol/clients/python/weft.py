@@ -421,6 +421,26 @@ class Client:
         """An obstacle, by its place in `scene`, goes there within one step; quaternion (w, x, y, z) None: it keeps its turn."""
         return await self.send("obstacle.move", obstacle=obstacle, position=position, quaternion=quaternion)
 
+    async def grab(self, cloth: int, u: float, v: float, *, position=None, max_force: typing.Optional[float] = None) -> int:
+        """Takes hold of a cloth at (u, v), which then follows the hand (m; None: where the cloth is) by at most a force (N); returns
+        the grab's id. It lets go when the connection closes."""
+        ok = await self.send("cloth.grab", cloth=cloth, u=u, v=v, position=position, max_force=max_force)
+        return ok["grab"]
+
+    async def move_grab(self, grab: int, position) -> dict:
+        return await self.send("grab.move", grab=grab, position=position)
+
+    async def release(self, grab: int) -> dict:
+        return await self.send("grab.release", grab=grab)
+
+    async def pin(self, cloth: int, u: float, v: float) -> dict:
+        """Holds the node nearest to (u, v) where it is."""
+        return await self.send("cloth.pin", cloth=cloth, u=u, v=v)
+
+    async def unpin(self, cloth: int, u: float, v: float) -> dict:
+        """Takes away the pin that holds (u, v), or the nearest one."""
+        return await self.send("cloth.unpin", cloth=cloth, u=u, v=v)
+
     async def set_wind(self, direction, speed: float) -> dict:
         """Direction of any length but zero; speed in m/s."""
         return await self.send("wind.set", direction=direction, speed=speed)

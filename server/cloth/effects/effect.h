@@ -14,6 +14,7 @@ struct EffectContext {
   const ClothDescription* cloth = nullptr;
   const Wind* wind = nullptr;
   double time = 0;  ///< s
+  double step = 0;  ///< length of the substep, s; given to add_damping alone
   /// Largest damping rate, 1/s, that the substep bears. A force that grows with speed faster than it did when
   /// the substeps were chosen (a fast ball strikes) is held to it. Infinite for methods that bear any.
   double damping_limit = std::numeric_limits<double>::infinity();

@@ -90,6 +90,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       state_->system.bodies().clear();
     }
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
+    forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
     begin_substep(particles, h);
     report.linear_iterations += find_move(particles, forces, h);

@@ -12,7 +12,8 @@ class Commands : public ::testing::Test {
   explicit Commands(const scene::Scene& scene = hung_cloth()) : live(scene, Limits{}) {
     visit = reader.viewer->enter();
     live.add_viewer(reader.viewer, visit);
-    live.add_viewer(other.viewer, other.viewer->enter());
+    other_visit = other.viewer->enter();
+    live.add_viewer(other.viewer, other_visit);
     live.publish(0);
     drain();
   }
@@ -38,7 +39,7 @@ class Commands : public ::testing::Test {
 
   LiveScene live;
   Reader reader, other;
-  std::uint64_t visit = 0;
+  std::uint64_t visit = 0, other_visit = 0;
   std::int64_t id = 0;
 };
 
@@ -120,6 +121,55 @@ TEST_F(ObstacleCommands, MoveThemAndFramesTellOfThoseThatMoved) {
   EXPECT_EQ(error.at("code"), "not_found");
   EXPECT_EQ(error.at("path"), "/obstacle");
   EXPECT_EQ(error.at("message"), "/obstacle is 2; the scene has 2 obstacles, counted from 0");
+}
+
+TEST_F(Commands, HandsTakeHoldPullAndLetGo) {
+  const json grabbed = command(ClothGrab{0, 0.5, 1.0, {}, 50});
+  const std::uint32_t grab = grabbed.at("grab");
+  EXPECT_EQ(live.simulation().cloths()[0].grabs().at(0).max_force, 50);
+  EXPECT_EQ(command(GrabMove{grab, {0, 0, 2}}).at("op"), "ok");
+  EXPECT_EQ(live.simulation().cloths()[0].grabs().at(0).hand, Vec3(0, 0, 2));
+  steps(30);
+  // Another viewer does not hold it.
+  live.apply(other.viewer, other_visit, {7, GrabMove{grab, {0, 0, 0}}});
+  drain();
+  EXPECT_EQ(other.reply(7).at("code"), "not_found");
+  EXPECT_EQ(other.reply(7).at("message"),
+            "/grab is " + std::to_string(grab) + "; this viewer holds nothing by that id");
+  EXPECT_EQ(command(GrabRelease{grab}).at("op"), "ok");
+  EXPECT_EQ(command(GrabRelease{grab}).at("code"), "not_found");
+  EXPECT_TRUE(live.simulation().cloths()[0].grabs().empty());
+  const json error = command(ClothGrab{1, 0.5, 1.0, {}, 50});
+  EXPECT_EQ(error.at("path"), "/cloth");
+  EXPECT_EQ(error.at("message"), "/cloth is 1; the scene has 1 cloths, counted from 0");
+}
+
+TEST_F(Commands, WhoLeavesLetsGoAndAResetLetsAllGo) {
+  command(ClothGrab{0, 0.5, 1.0, {}, 50});
+  live.apply(other.viewer, other_visit, {7, ClothGrab{0, 0.2, 1.0, {}, 50}});
+  EXPECT_EQ(live.simulation().cloths()[0].grabs().size(), 2u);
+  live.remove_viewer(other.viewer.get(), other_visit);
+  EXPECT_EQ(live.simulation().cloths()[0].grabs().size(), 1u);
+  command(Reset{});
+  EXPECT_TRUE(live.simulation().cloths()[0].grabs().empty());
+  EXPECT_EQ(command(GrabRelease{1}).at("code"), "not_found");
+}
+
+TEST_F(Commands, The65thGrabAndThe257thPinAreRefused) {
+  for (int i = 0; i < 64; ++i) ASSERT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("op"), "ok");
+  EXPECT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("code"), "limit");
+  const int pins = static_cast<int>(live.simulation().cloths()[0].description().pins.size());
+  for (int i = pins; i < 256; ++i) ASSERT_EQ(command(ClothPin{0, 0.5, 0.5}).at("op"), "ok");
+  EXPECT_EQ(command(ClothPin{0, 0.5, 0.5}).at("code"), "limit");
+}
+
+TEST_F(Commands, PinsAreSetAndTakenAway) {
+  const std::size_t pins = live.simulation().cloths()[0].description().pins.size();
+  EXPECT_EQ(command(ClothPin{0, 0.5, 1}).at("op"), "ok");
+  EXPECT_EQ(live.simulation().cloths()[0].description().pins.size(), pins + 1);
+  for (std::size_t i = 0; i <= pins; ++i) EXPECT_EQ(command(ClothUnpin{0, 0.5, 1}).at("op"), "ok");
+  EXPECT_EQ(command(ClothUnpin{0, 0.5, 1}).at("message"), "/cloth is 0; it has no pins");
+  EXPECT_EQ(command(ClothPin{3, 0.5, 1}).at("code"), "not_found");
 }
 
 TEST_F(Commands, OnABallThatIsNotThereAreNotFound) {

@@ -1,0 +1,140 @@
+#include "cloth/effects/grab.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Calls visit(index, weight) for each node of the patch around `at`; the weights' sum is 1.
+template <class Visit>
+void for_each_in_patch(const Grid& grid, const Vec2& size, const Vec2& at, double radius, Visit visit) {
+  struct Axis {
+    double centre, reach;  ///< in cells
+    int first, last;
+    double weight(int i) const { return std::max(0.0, 1 - std::abs(i - centre) / reach); }
+  };
+  const auto axis = [&](double where, double length, int nodes) {
+    const int cells = nodes - 1;
+    Axis made{where * cells, std::max(1.0, radius / length * cells), 0, 0};
+    made.first = std::max(0, static_cast<int>(std::ceil(made.centre - made.reach)));
+    made.last = std::min(cells, static_cast<int>(std::floor(made.centre + made.reach)));
+    return made;
+  };
+  const Axis u = axis(at.x(), size.x(), grid.cols), v = axis(at.y(), size.y(), grid.rows);
+  const auto sum = [](const Axis& a) {
+    double total = 0;
+    for (int i = a.first; i <= a.last; ++i) total += a.weight(i);
+    return total;
+  };
+  const double scale = 1 / (sum(u) * sum(v));
+  for (int r = v.first; r <= v.last; ++r) {
+    for (int c = u.first; c <= u.last; ++c) {
+      const double weight = scale * u.weight(c) * v.weight(r);
+      if (weight > 0) visit(grid.index(r, c), weight);
+    }
+  }
+}
+
+double patch_radius(const ClothDescription& cloth, double share) { return share * cloth.size.minCoeff(); }
+
+double total_mass(const ClothDescription& cloth) {
+  return cloth.material.density * cloth.size.x() * cloth.size.y();
+}
+
+template <class Real>
+Vec3 value(kernels::Components<const Real> field, std::size_t i) {
+  return {double(field.x[i]), double(field.y[i]), double(field.z[i])};
+}
+
+}  // namespace
+
+template <class Real>
+bool Grabs<Real>::move(GrabId id, const Vec3& hand) {
+  const auto found = std::find_if(grabs_.begin(), grabs_.end(), [&](const Grab& g) { return g.id == id; });
+  if (found == grabs_.end()) return false;
+  found->hand = hand;
+  return true;
+}
+
+template <class Real>
+bool Grabs<Real>::release(GrabId id) {
+  return std::erase_if(grabs_, [&](const Grab& grab) { return grab.id == id; }) > 0;
+}
+
+template <class Real>
+Vec3 Grabs<Real>::place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& at) {
+  Vec3 place(0, 0, 0);
+  for_each_in_patch(particles.grid(), cloth.size, at, patch_radius(cloth, kPatch),
+                    [&](std::size_t i, double weight) {
+                      place += weight * value<Real>(kernels::components(particles.position), i);
+                    });
+  return place;
+}
+
+template <class Real>
+auto Grabs<Real>::pull_of(const Grab& grab, const Particles<Real>& particles,
+                          const ClothDescription& cloth) const -> Pull {
+  const double stiffness = total_mass(cloth) * kFrequency * kFrequency;
+  const double damping = total_mass(cloth) * kFrequency;  // half of critical for the whole cloth
+  Vec3 speed(0, 0, 0);
+  for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
+                    [&](std::size_t i, double weight) {
+                      speed += weight * value<Real>(kernels::components(particles.velocity), i);
+                    });
+  const Vec3 whole = stiffness * (grab.hand - place(particles, cloth, grab.at)) - damping * speed;
+  const double strength = whole.norm();
+  const double share = strength > grab.max_force ? grab.max_force / strength : 1.0;
+  return {share * whole, share};
+}
+
+template <class Real>
+void Grabs<Real>::add_forces(const Particles<Real>& particles, const EffectContext& context,
+                             VectorField<Real>& force) const {
+  const ClothDescription& cloth = *context.cloth;
+  const auto total = kernels::components(force);
+  for (const Grab& grab : grabs_) {
+    const Vec3 pull = pull_of(grab, particles, cloth).force;
+    for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
+                      [&](std::size_t i, double weight) {
+                        total.x[i] += static_cast<Real>(weight * pull.x());
+                        total.y[i] += static_cast<Real>(weight * pull.y());
+                        total.z[i] += static_cast<Real>(weight * pull.z());
+                      });
+  }
+}
+
+template <class Real>
+double Grabs<Real>::max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const {
+  // A spring of frequency w asks no more of a step than a damping rate of w.
+  const ClothDescription& cloth = *context.cloth;
+  const Real* inverse_mass = particles.inverse_mass.row(0);
+  double most = 0;
+  for (const Grab& grab : grabs_) {
+    for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
+                      [&](std::size_t i, double weight) {
+                        const double share = total_mass(cloth) * weight * double(inverse_mass[i]);
+                        most = std::max(most, kFrequency * (share + std::sqrt(share)));
+                      });
+  }
+  return most * static_cast<double>(grabs_.size());  // they may hold the same patch
+}
+
+template <class Real>
+void Grabs<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
+                              const DampingMatrix<Real>& damping) const {
+  const ClothDescription& cloth = *context.cloth;
+  const double all = total_mass(cloth) * kFrequency * (1 + kFrequency * context.step);
+  for (const Grab& grab : grabs_) {
+    // A hand that slips hardly feels where the cloth is.
+    const double share = pull_of(grab, particles, cloth).share;
+    for_each_in_patch(
+        particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
+        [&](std::size_t i, double weight) { damping.scalar[i] += static_cast<Real>(share * weight * all); });
+  }
+}
+
+template class Grabs<float>;
+template class Grabs<double>;
+
+}  // namespace weft

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cloth/effects/effect.h"
+
+namespace weft {
+
+using GrabId = std::uint32_t;
+
+/// A hand on a cloth: it holds a patch around a point and pulls it to where it is.
+struct Grab {
+  GrabId id = 0;
+  Vec2 at{0.5, 0.5};       ///< (u, v) of the point, in [0, 1]
+  Vec3 hand{0, 0, 0};      ///< m
+  double max_force = 100;  ///< N, > 0; what the hand is pulled beyond it slips behind
+};
+
+/// The cloth's grabs: a damped spring between each hand and the mean of its patch, of at most max_force. The
+/// patch is a hat of 1/16 of the shorter side around the point, or of a cell where those are larger, so that
+/// its size does not hang on the level. The spring is so stiff that the whole cloth, hung from it, swings at
+/// kFrequency: it hangs g / kFrequency^2 = 2.5 cm below the hand whatever it weighs.
+template <class Real>
+class Grabs final : public Effect<Real> {
+ public:
+  static constexpr double kFrequency = 20;  ///< rad/s
+  static constexpr double kPatch = 1.0 / 16;
+
+  const char* name() const override { return "grab"; }
+  bool empty() const { return grabs_.empty(); }
+  const std::vector<Grab>& all() const { return grabs_; }
+  void add(const Grab& grab) { grabs_.push_back(grab); }
+  /// Where the hand goes; false if there is no such grab.
+  bool move(GrabId id, const Vec3& hand);
+  bool release(GrabId id);
+  /// Where what would be held at (u, v) is now, m.
+  static Vec3 place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& at);
+
+  void add_forces(const Particles<Real>& particles, const EffectContext& context,
+                  VectorField<Real>& force) const override;
+  double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
+  /// Its stiffness as well, which in a step of h weighs as much as a damping of h times it.
+  void add_damping(const Particles<Real>& particles, const EffectContext& context,
+                   const DampingMatrix<Real>& damping) const override;
+
+ private:
+  struct Pull {
+    Vec3 force;    ///< N
+    double share;  ///< of the spring's: below 1 where the hand slips
+  };
+  Pull pull_of(const Grab& grab, const Particles<Real>& particles, const ClothDescription& cloth) const;
+
+  std::vector<Grab> grabs_;
+};
+
+extern template class Grabs<float>;
+extern template class Grabs<double>;
+
+}  // namespace weft
