@@ -109,6 +109,7 @@ test('each method sends its operation', async () => {
   await client.throwBall(7, [0, 0, -6]);
   await client.removeBall(7);
   await client.setWind([0, 0, -1], 3);
+  await client.setWind([0, 0, -1], 3, { gusts: 0.25 });
   await client.setQuality({ maxError: 0.01 });
   await client.setQuality({ maxMs: 2 });
   await client.setQuality();
@@ -126,7 +127,7 @@ test('each method sends its operation', async () => {
   assert.deepEqual(sent, [
     { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
-    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
     { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);
   assert.deepEqual(server.received.map(({ id }) => id), sent.map((_, i) => i + 1), 'ids are counted');

@@ -148,6 +148,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.throw_ball(7, [0, 0, -6])
             await scene.remove_ball(7)
             await scene.set_wind([0, 0, -1], 3)
+            await scene.set_wind([0, 0, -1], 3, gusts=0.25)
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
             await scene.set_quality()
@@ -167,6 +168,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2},
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
             {"op": "ball.remove", "ball": 7}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
+            {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},
             {"op": "scene.join", "scene": "curtain"}])
