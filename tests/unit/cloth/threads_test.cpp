@@ -243,7 +243,7 @@ TEST(Threads, ClothsInTurbulenceHaveTheSameBitsOnAnyNumber) {
   scene.wind.gusts = {0.3, 1.0};
   scene.wind.turbulence = {0.3, 0.3};
   scene.wind.zones = {{SphereZone{0.3}, {0, 0, 0}, {0, 2, 0}, 0.2}};
-  expect_same_bits(scene, kAll, kStackSteps / 4, 0);
+  expect_same_bits(scene, kAll, kStackSteps / 10, 0);
 }
 
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {
