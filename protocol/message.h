@@ -91,6 +91,7 @@ struct ClothUnpin {
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
+  std::optional<double> gusts = {};  ///< intensity; without it that stays
 };
 /// At most one of the two; without either the scene's own again.
 struct Quality {

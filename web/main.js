@@ -62,7 +62,7 @@ function start(settings) {
       show.setWireframe(on);
       panel.setWireframe(on);
     },
-    setWind: (direction, speed) => command({op: 'wind.set', direction, speed}),
+    setWind: (direction, speed, gusts) => command({op: 'wind.set', direction, speed, gusts}),
     addBall: async () => {
       const reply = await command({op: 'ball.add', position: placeForBall(), radius: kBallRadius});
       if (reply) choose(reply.ball);

@@ -14,7 +14,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
  * @property {() => void} reset
  * @property {(distance: number) => void} goTo
  * @property {(on: boolean) => void} setWireframe
- * @property {(direction: number[], speed: number) => void} setWind
+ * @property {(direction: number[], speed: number, gusts: number) => void} setWind
  * @property {() => void} addBall
  * @property {(ball: number) => void} removeBall
  * @property {(ball: number) => void} throwBall
@@ -72,7 +72,7 @@ export class Panel {
     byId('wireframe').checked = on;
   }
 
-  /** @param {{direction: number[], speed: number}} wind @param {boolean} available whether the scene has an effect of wind */
+  /** @param {{direction: number[], speed: number, gusts?: number}} wind @param {boolean} available whether the scene has an effect of wind */
   setWind(wind, available) {
     this.windAvailable = available;
     byId('wind-absent').hidden = available;
@@ -85,6 +85,7 @@ export class Panel {
       // Straight up or down has no heading: the slider stays where it was.
       if (Math.abs(tilt) < 90) byId('wind-heading').value = String(heading);
       byId('wind-tilt').value = String(tilt);
+      byId('wind-gusts').value = String(wind.gusts ?? 0);
       this.#showWind();
     }
   }
@@ -148,7 +149,8 @@ export class Panel {
     const send = () => {
       timer = null;
       this.actions.setWind(
-        directionOf(Number(byId('wind-heading').value), Number(byId('wind-tilt').value)), Number(byId('wind-speed').value));
+        directionOf(Number(byId('wind-heading').value), Number(byId('wind-tilt').value)),
+        Number(byId('wind-speed').value), Number(byId('wind-gusts').value));
     };
     byId('wind').addEventListener('input', () => {
       this.windHeldUntilMs = performance.now() + kHoldMs;
@@ -158,10 +160,11 @@ export class Panel {
   }
 
   #showWind() {
-    const [speed, heading, tilt] = ['wind-speed', 'wind-heading', 'wind-tilt'].map((id) => Number(byId(id).value));
+    const [speed, heading, tilt, gusts] = ['wind-speed', 'wind-heading', 'wind-tilt', 'wind-gusts'].map((id) => Number(byId(id).value));
     byId('wind-speed-value').textContent = `${speed.toFixed(1)} m/s`;
     byId('wind-heading-value').textContent = `${heading}°`;
     byId('wind-tilt-value').textContent = `${tilt}°`;
+    byId('wind-gusts-value').textContent = `${Math.round(100 * gusts)} %`;
   }
 
   #wireBalls() {

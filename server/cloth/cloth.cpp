@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 
 #include "cloth/clock.h"
+#include "cloth/random.h"
 #include "cloth/refine.h"
 
 namespace weft {
 namespace {
-
-/// Uniform in [-1, 1) from the generator's upper 53 bits: the standard fixes the generator's bits, not a
-/// distribution's.
-double symmetric_uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
-}
 
 /// Calls visit(r, c, u, v) for every node, row by row, (u, v) its place on the sheet.
 template <class Visit>
@@ -58,10 +52,10 @@ void place(const ClothDescription& description, Particles<Real>& particles) {
 template <class Real>
 void perturb(const ClothDescription& description, std::uint64_t seed, Particles<Real>& particles) {
   if (description.perturbation == 0) return;
-  std::mt19937_64 random(seed);
+  Random random(seed);
   const Vec3 normal = description.orientation * Vec3(0, 0, 1);
   for_each_node(particles.grid(), [&](int r, int c, double, double) {
-    const double offset = description.perturbation * symmetric_uniform(random);
+    const double offset = description.perturbation * random.symmetric();
     if (particles.inverse_mass.at(r, c) > Real(0)) {
       set(particles.position, r, c, particles.position_at(r, c) + offset * normal);
     }
@@ -228,15 +222,14 @@ void Cloth<Real>::set_pins() {
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind& wind, double time,
-                                   double dt) {
+AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
-  if (sleep_.through(solids, wind) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
+  if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
     const Rung rung = guard_.rung();
-    AdvanceReport report = attempt(wind, time, dt);
+    AdvanceReport report = attempt(air, time, dt);
     const auto begin = Clock::now();
     const Verdict verdict = guard_.judge(particles_, report);
     if (verdict == Verdict::good) {
@@ -254,10 +247,22 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Wind&
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::attempt(const Wind& wind, double time, double dt) {
-  const Forces<Real> forces{
-      &springs_, &effects_, {&description_, &wind, time}, pins_.moving() ? &pins_ : nullptr};
+AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
+  EffectContext context{&description_, &air.wind(), time};
+  context.gusts = air.gusts();
+  context.node_air = node_air(air, time, dt);
+  const Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr};
   return integrator_->advance(particles_, forces, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
+}
+
+template <class Real>
+const VectorField<float>* Cloth<Real>::node_air(const Air& air, double time, double dt) {
+  const auto feels_wind = [](const auto& effect) { return effect->feels_wind(); };
+  if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_wind)) return nullptr;
+  if (!node_air_) node_air_ = std::make_unique<NodeAir>();
+  const Grid& grid = particles_.grid();
+  const Vec2 spacing = description_.size.cwiseQuotient(Vec2(grid.cols - 1, grid.rows - 1));
+  return &node_air_->sample(air, particles_, spacing, time + dt / 2, dt / 2);
 }
 
 template <class Real>

@@ -6,6 +6,7 @@
 #include "cloth/integrators/integrator.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
+#include "cloth/wind/node_air.h"
 
 namespace weft {
 
@@ -65,7 +66,7 @@ class Cloth {
   /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
   /// push_balls(). Several cloths may do it at the same time, each with its share of a ball that they all
   /// touch (Colliders::share).
-  AdvanceReport advance(const std::vector<Solid>& solids, const Wind& wind, double time, double dt);
+  AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
   /// Touches the solid, or will within a step of `dt` seconds if all go on as they go.
   bool meets(const Solid& solid, double dt);
   /// Hands over what the last advance gave to the balls.
@@ -78,7 +79,9 @@ class Cloth {
   void make_springs();
   Contact<Real>& contact();
   void set_pins();
-  AdvanceReport attempt(const Wind& wind, double time, double dt);
+  AdvanceReport attempt(const Air& air, double time, double dt);
+  /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
+  const VectorField<float>* node_air(const Air& air, double time, double dt);
   /// Nothing remembers a step that was taken back.
   void forget_attempt();
 
@@ -98,6 +101,7 @@ class Cloth {
   std::vector<Solid> solids_;               ///< as the cloth moves them in the step
   int nodes_in_contact_ = 0;                ///< at the end of the last step that was made
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
+  std::unique_ptr<NodeAir> node_air_;       ///< made when the wind first differs from node to node
   ContactCounters earlier_contacts_;        ///< at the levels left behind
 };
 

@@ -11,6 +11,7 @@
 #include "cloth/level_policy.h"
 #include "cloth/material.h"
 #include "cloth/vec3.h"
+#include "cloth/wind/wind.h"
 
 namespace weft {
 
@@ -36,24 +37,21 @@ struct PaperWindEffect {
   static constexpr const char* kName = "paper_wind";
 };
 
-/// Pressure of moving air on a face: F/A = 1/2 rho C |w_n| w_n n with w = wind - velocity, w_n = w . n (flat
-/// plate). A sheet falling face on reaches sqrt(2 rho_cloth g / (rho C)), T16 in the truths.
+/// Moving air on a face: F/A = 1/2 rho |w_n| w_n (C_D (n.e) e + C_L (n - (n.e) e)) with w = wind - velocity,
+/// e = w / |w|, w_n = w . n; drag along the relative wind and lift across it. Where both coefficients are C,
+/// as by default, that is a flat plate's pressure, 1/2 rho C |w_n| w_n n. A sheet falling face on reaches
+/// sqrt(2 rho_cloth g / (rho C_D)), T16 in the truths.
 struct AerodynamicsEffect {
-  double air_density = 1.225;  ///< kg/m3
-  double drag = 1.2;           ///< C, dimensionless
+  double air_density = 1.225;       ///< kg/m3
+  double drag = 1.2;                ///< C_D, dimensionless
+  std::optional<double> lift = {};  ///< C_L, dimensionless; default: as drag
+  double lift_or_drag() const { return lift.value_or(drag); }
   static constexpr const char* kName = "aerodynamics";
 };
 
 using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect>;
 
 // --- Things in the scene ---
-
-/// The scene's wind, read by paper_wind and aerodynamics.
-struct Wind {
-  Vec3 direction{0.0, 0.0, -1.0};  ///< unit
-  double speed = 0.0;              ///< m/s, >= 0
-  Vec3 velocity() const { return speed * direction; }
-};
 
 /// A point passed at a time; linear between points, at rest before the first and after the last.
 struct Waypoint {

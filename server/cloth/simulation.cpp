@@ -35,7 +35,7 @@ Simulation<Real>::Simulation(SimulationDescription description) : description_(s
 template <class Real>
 void Simulation<Real>::reset() {
   gravity_ = total_gravity(description_.effects);
-  wind_ = description_.wind;
+  air_ = Air(description_.wind, description_.seed);
   colliders_ = Colliders(description_.balls, description_.obstacles);
   cloths_ = make_cloths<Real>(description_);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
@@ -109,7 +109,7 @@ template <class Real>
 void Simulation<Real>::advance_cloths(double dt) {
   const auto advance = [&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), wind_, time(), dt);
+    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), air_, time(), dt);
   };
   int nodes = 0;
   for (const Cloth<Real>& cloth : cloths_) nodes += cloth.asleep() ? 0 : cloth.particles().grid().nodes();

@@ -49,7 +49,7 @@ class Simulation {
   const std::vector<Cloth<Real>>& cloths() const { return cloths_; }
   std::vector<Cloth<Real>>& cloths() { return cloths_; }
   const Colliders& colliders() const { return colliders_; }
-  const Wind& wind() const { return wind_; }
+  const Wind& wind() const { return air_.wind(); }
   Vec3 gravity() const { return gravity_; }
   /// Energies and strain, computed now: not part of a step.
   ClothReport report(std::size_t cloth) const;
@@ -58,7 +58,7 @@ class Simulation {
 
   // Commands: each takes effect in the next step.
   void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
-  void set_wind(const Wind& wind) { wind_ = wind; }
+  void set_wind(const Wind& wind) { air_.change(wind, time()); }
   /// Every cloth is stepped by `integrator` from the next step on; until reset(), which goes back to the
   /// description's.
   void set_integrator(const IntegratorDescription& integrator);
@@ -92,7 +92,7 @@ class Simulation {
 
   SimulationDescription description_;
   Vec3 gravity_{0, 0, 0};
-  Wind wind_;
+  Air air_;
   Colliders colliders_;
   std::vector<Cloth<Real>> cloths_;
   std::vector<AdvanceReport> last_advance_;

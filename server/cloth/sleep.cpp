@@ -19,10 +19,11 @@ Eigen::AlignedBox3d box_around(const Particles<Real>& particles, double margin) 
 
 }  // namespace
 
-bool Sleep::through(const std::vector<Solid>& solids, const Wind& wind) {
+bool Sleep::through(const std::vector<Solid>& solids, const Air& air) {
   if (threshold_ <= 0) return false;
-  if (wind.velocity() != wind_) {
-    wind_ = wind.velocity();
+  const Vec3 wind = air.wind().velocity();
+  if (!air.steady() || wind != wind_) {
+    wind_ = wind;
     wake();
   }
   if (asleep_ && neighbours(solids) != neighbours_) wake();

@@ -5,6 +5,7 @@
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
 #include "cloth/particles.h"
+#include "cloth/wind/air.h"
 
 namespace weft {
 
@@ -29,8 +30,8 @@ class Sleep {
     watched_.clear();
   }
   /// Before a step: true if the cloth sleeps through it. It wakes when the wind changes, and when near it a
-  /// solid moves, yields, came or went.
-  bool through(const std::vector<Solid>& solids, const Wind& wind);
+  /// solid moves, yields, came or went. In gusts and turbulence it never sleeps.
+  bool through(const std::vector<Solid>& solids, const Air& air);
   /// After a step of dt, s, that left the cloth at `speed` at most, m/s: falls asleep if it is time.
   template <class Real>
   void stepped(double speed, double dt, const Particles<Real>& particles, const std::vector<Solid>& solids);

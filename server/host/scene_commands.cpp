@@ -175,7 +175,11 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (!has_wind(scene_.simulation)) {
     return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
   }
-  simulation_.set_wind({to_vec3(wind.direction), wind.speed});
+  Wind changed = simulation_.wind();
+  changed.direction = to_vec3(wind.direction);
+  changed.speed = wind.speed;
+  if (wind.gusts) changed.gusts.intensity = *wind.gusts;
+  simulation_.set_wind(changed);
   tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
   return json::object();
 }

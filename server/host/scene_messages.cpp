@@ -60,7 +60,9 @@ const char* state_of(const Cloth<float>& cloth) {
 }  // namespace
 
 json wind_json(const Wind& wind) {
-  return {{"direction", vector_json(wind.direction)}, {"speed", wind.speed}};
+  json message{{"direction", vector_json(wind.direction)}, {"speed", wind.speed}};
+  if (wind.gusts.intensity > 0) message["gusts"] = wind.gusts.intensity;
+  return message;
 }
 
 json balls_json(const Colliders& colliders) {

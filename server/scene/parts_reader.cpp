@@ -42,7 +42,7 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kAcceleration{-1e4, 1e4, "m/s2"};
   constexpr Range kFactor{0, 1e6, "N at 1 m/s"};
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
-  constexpr Range kDrag{0, 100};
+  constexpr Range kCoefficient{0, 100};
   Object object(value, path, report);
   object.require("type", "an effect's name");
   switch (object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
@@ -63,23 +63,15 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     case 3: {
       AerodynamicsEffect aerodynamics;
       object.number("air_density", aerodynamics.air_density, kAirDensity);
-      object.number("drag", aerodynamics.drag, kDrag);
+      object.number("drag", aerodynamics.drag, kCoefficient);
+      double lift = 0;
+      if (object.number("lift", lift, kCoefficient)) aerodynamics.lift = lift;
       return aerodynamics;
     }
     default:
       object.ignore_rest();
       return std::nullopt;
   }
-}
-
-Wind read_wind(const json& value, const std::string& path, Report& report) {
-  constexpr Range kSpeed{0, 100, "m/s"};
-  Wind wind;
-  Object object(value, path, report);
-  object.direction("direction", wind.direction, kComponent);
-  object.require("speed", kSpeed);
-  object.number("speed", wind.speed, kSpeed);
-  return wind;
 }
 
 IntegratorDescription read_integrator(const json& value, const std::string& path, Report& report) {

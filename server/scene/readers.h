@@ -13,6 +13,7 @@ inline constexpr std::size_t kMaxColliders = 64;
 inline constexpr int kMaxClothNodes = 257 * 257;  ///< at the cloth's highest level
 inline constexpr std::size_t kMaxPins = 256;
 inline constexpr std::size_t kMaxWaypoints = 10000;
+inline constexpr std::size_t kMaxWindZones = 16;
 
 // Ranges that several parts share. They only keep numbers where float arithmetic makes sense: sheets of 1 mm
 // to 10 km, from spider silk to steel.

@@ -88,6 +88,11 @@ test('wind by the sliders', async () => {
   assert.equal(await page.textContent('#wind-arrow-text'), 'wind 8.0 m/s');
   // Along +x the cloth is blown to its right.
   await until(page, () => weft.stats.cloths[0].centre[0] > 0.05);
+  await page.fill('#wind-gusts', '0.4');
+  await until(page, () => weft.stats.wind.gusts === 0.4 && weft.stats.wind.speed === 8);
+  assert.equal(await page.textContent('#wind-gusts-value'), '40 %');
+  await page.fill('#wind-gusts', '0');
+  await until(page, () => weft.stats.wind.gusts === undefined);
   await page.fill('#wind-speed', '0');
   await until(page, () => weft.stats.wind.speed === 0);
   assert.equal(await page.isVisible('#wind-arrow'), false);

@@ -76,7 +76,7 @@ struct EffectWriter {
     return {{"factor", e.factor}, {"along_normal", e.along_normal}};
   }
   json operator()(const AerodynamicsEffect& e) const {
-    return {{"air_density", e.air_density}, {"drag", e.drag}};
+    return {{"air_density", e.air_density}, {"drag", e.drag}, {"lift", e.lift_or_drag()}};
   }
 };
 

@@ -423,9 +423,12 @@ export class WeftClient {
     return this.send('cloth.unpin', { cloth, u, v });
   }
 
-  /** @param {Vector} direction any length but zero @param {number} speed m/s */
-  setWind(direction, speed) {
-    return this.send('wind.set', { direction, speed });
+  /**
+   * @param {Vector} direction any length but zero @param {number} speed m/s
+   * @param {{gusts?: number}} [change] how strong gusts are, 0 to 1: their root mean square over the speed; without it as they were
+   */
+  setWind(direction, speed, { gusts } = {}) {
+    return this.send('wind.set', { direction, speed, gusts });
   }
 
   /**

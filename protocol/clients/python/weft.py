@@ -441,9 +441,10 @@ class Client:
         """Takes away the pin that holds (u, v), or the nearest one."""
         return await self.send("cloth.unpin", cloth=cloth, u=u, v=v)
 
-    async def set_wind(self, direction, speed: float) -> dict:
-        """Direction of any length but zero; speed in m/s."""
-        return await self.send("wind.set", direction=direction, speed=speed)
+    async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None) -> dict:
+        """Direction of any length but zero; speed in m/s; gusts from 0 to 1, their root mean square over the speed (None: as
+        they were)."""
+        return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts)
 
     async def set_quality(self, *, max_error: typing.Optional[float] = None, max_ms: typing.Optional[float] = None) -> dict:
         """Holds the scene to an error (share of the cloth's size) or to a time (ms a step), for all viewers; with neither it is

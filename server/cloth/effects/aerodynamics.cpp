@@ -1,14 +1,25 @@
 #include "cloth/effects/aerodynamics.h"
 
+#include <cmath>
+
 #include "cloth/kernels/air_kernels.h"
 
 namespace weft {
 namespace {
 
+/// Calls with the air's velocity, the same everywhere or at each node.
+template <class Real, class Call>
+auto in_air(const EffectContext& context, const Call& call) {
+  if (context.node_air != nullptr) return call(kernels::components(*context.node_air));
+  const Vec3 v = context.wind_speed() * context.wind->direction;
+  return call(
+      kernels::Uniform<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())});
+}
+
 template <class Real>
-kernels::Uniform<Real> air_of(const Wind& wind) {
-  const Vec3 v = wind.velocity();
-  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+kernels::Plate<Real> plate_of(const AerodynamicsEffect& e) {
+  return {static_cast<Real>(0.5 * e.air_density * e.lift_or_drag()),
+          static_cast<Real>(0.5 * e.air_density * (e.drag - e.lift_or_drag()))};
 }
 
 }  // namespace
@@ -18,36 +29,42 @@ void Aerodynamics<Real>::add_forces(const Particles<Real>& particles, const Effe
                                     VectorField<Real>& force) const {
   // An infinite limit becomes an infinite flow: no limit.
   const double most_flow = context.damping_limit / rate_per_flow(particles);
-  kernels::add_air_pressure(particles.grid(), kernels::components(particles.position),
-                            kernels::components(particles.velocity), air_of<Real>(*context.wind),
-                            static_cast<Real>(0.5 * parameters_.air_density * parameters_.drag),
-                            static_cast<Real>(most_flow), kernels::components(force));
+  in_air<Real>(context, [&](const auto& air) {
+    kernels::add_air_force(particles.grid(), kernels::components(particles.position),
+                           kernels::components(particles.velocity), air, plate_of<Real>(parameters_),
+                           static_cast<Real>(most_flow), kernels::components(force));
+  });
 }
 
 template <class Real>
 double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
                                             const EffectContext& context) const {
-  const double flow =
-      double(kernels::max_air_flow(particles.grid(), kernels::components(particles.position),
-                                   kernels::components(particles.velocity), air_of<Real>(*context.wind)));
-  return flow * rate_per_flow(particles);
+  const Real flow = in_air<Real>(context, [&](const auto& air) {
+    return kernels::max_air_flow(particles.grid(), kernels::components(particles.position),
+                                 kernels::components(particles.velocity), air);
+  });
+  return double(flow) * rate_per_flow(particles);
 }
 
 template <class Real>
 void Aerodynamics<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
                                      const DampingMatrix<Real>& damping) const {
-  kernels::add_air_damping(particles.grid(), kernels::components(particles.position),
-                           kernels::components(particles.velocity), air_of<Real>(*context.wind),
-                           static_cast<Real>(0.5 * parameters_.air_density * parameters_.drag),
-                           damping.blocks);
+  in_air<Real>(context, [&](const auto& air) {
+    kernels::add_air_damping(particles.grid(), kernels::components(particles.position),
+                             kernels::components(particles.velocity), air, plate_of<Real>(parameters_),
+                             damping.blocks);
+  });
 }
 
 template <class Real>
 double Aerodynamics<Real>::rate_per_flow(const Particles<Real>& particles) const {
   // -dF/dv of a face is rho C |w.A| n n^T, shared by its four corners. A node in the middle of the grid has
   // a quarter of each of its four faces; on the border it has fewer faces, and no more of them for its mass.
+  // What drag differs from lift adds at most 1.1 times as much in any direction (air_kernels.h).
   const Grid& grid = particles.grid();
-  return parameters_.air_density * parameters_.drag / double(particles.mass.at(grid.rows / 2, grid.cols / 2));
+  const double lift = parameters_.lift_or_drag();
+  const double coefficient = lift + 1.1 * std::abs(parameters_.drag - lift);
+  return parameters_.air_density * coefficient / double(particles.mass.at(grid.rows / 2, grid.cols / 2));
 }
 
 template class Aerodynamics<float>;

@@ -3,7 +3,7 @@
 
 namespace weft {
 
-/// Flat-plate pressure per face from the relative velocity; see AerodynamicsEffect.
+/// Drag and lift of every face from the relative velocity; see AerodynamicsEffect.
 template <class Real>
 class Aerodynamics final : public Effect<Real> {
  public:
@@ -14,6 +14,7 @@ class Aerodynamics final : public Effect<Real> {
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
   void add_damping(const Particles<Real>& particles, const EffectContext& context,
                    const DampingMatrix<Real>& damping) const override;
+  bool feels_wind() const override { return true; }
   bool needs_blocks() const override { return true; }
 
  private:

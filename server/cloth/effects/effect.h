@@ -6,6 +6,7 @@
 #include "cloth/description.h"
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/particles.h"
+#include "cloth/wind/gust_series.h"
 
 namespace weft {
 
@@ -18,6 +19,12 @@ struct EffectContext {
   /// Largest damping rate, 1/s, that the substep bears. A force that grows with speed faster than it did when
   /// the substeps were chosen (a fast ball strikes) is held to it. Infinite for methods that bear any.
   double damping_limit = std::numeric_limits<double>::infinity();
+  const GustSeries* gusts = nullptr;  ///< null if the wind has none
+  /// The air's velocity at the nodes during this step, m/s, gusts included; null if it is the same
+  /// everywhere.
+  const VectorField<float>* node_air = nullptr;
+  /// Of the wind at `time`, m/s; below 0 where a gust turns it round.
+  double wind_speed() const { return gusts ? wind->speed * gusts->factor(time) : wind->speed; }
 };
 
 /// -dF/dv of a cloth as the implicit methods take it, N s/m: at every node a scalar and a symmetric matrix.
@@ -43,6 +50,8 @@ class Effect {
   /// for forces without v.
   virtual void add_damping(const Particles<Real>& particles, const EffectContext& context,
                            const DampingMatrix<Real>& damping) const;
+  /// Whether it asks for the air's velocity at the nodes, if that differs from node to node.
+  virtual bool feels_wind() const { return false; }
   /// Whether add_damping writes blocks.
   virtual bool needs_blocks() const { return false; }
 };

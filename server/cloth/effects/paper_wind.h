@@ -11,6 +11,7 @@ class PaperWind final : public Effect<Real> {
   const char* name() const override { return PaperWindEffect::kName; }
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
+  bool feels_wind() const override { return true; }
 
  private:
   PaperWindEffect parameters_;

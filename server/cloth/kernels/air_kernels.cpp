@@ -35,26 +35,59 @@ template <class Real>
           (v.z[i] + v.z[right]) + (v.z[below] + v.z[across])};
 }
 
+/// The air's velocity on the face below and right of index i, and at node i.
 template <class Real>
-[[gnu::always_inline]] inline void pressure_block(const Components<const Real>& p,
-                                                  const Components<const Real>& v, std::size_t first,
-                                                  std::size_t stride, int count, const Uniform<Real>& air,
-                                                  Real factor, Real most_flow, Real* __restrict fx,
-                                                  Real* __restrict fy, Real* __restrict fz) {
+[[gnu::always_inline]] inline Uniform<Real> air_on_face(const Uniform<Real>& air, std::size_t, std::size_t) {
+  return air;
+}
+[[gnu::always_inline]] inline float face_mean(const float* v, std::size_t i, std::size_t stride) {
+  return ((v[i] + v[i + 1]) + (v[i + stride] + v[i + stride + 1])) * 0.25F;
+}
+template <class Real>
+[[gnu::always_inline]] inline Uniform<Real> air_on_face(const Components<const float>& air, std::size_t i,
+                                                        std::size_t stride) {
+  return {face_mean(air.x, i, stride), face_mean(air.y, i, stride), face_mean(air.z, i, stride)};
+}
+template <class Real>
+[[gnu::always_inline]] inline Uniform<Real> air_at_node(const Uniform<Real>& air, std::size_t) {
+  return air;
+}
+template <class Real>
+[[gnu::always_inline]] inline Uniform<Real> air_at_node(const Components<const float>& air, std::size_t i) {
+  return {air.x[i], air.y[i], air.z[i]};
+}
+
+/// kAlong: the plate's `along` is not 0.
+template <bool kAlong, class Real, class Air>
+[[gnu::always_inline]] inline void force_block(const Components<const Real>& p,
+                                               const Components<const Real>& v, std::size_t first,
+                                               std::size_t stride, int count, const Air& air,
+                                               const Plate<Real>& plate, Real most_flow, Real* __restrict fx,
+                                               Real* __restrict fy, Real* __restrict fz) {
   const Real smallest = std::numeric_limits<Real>::min();
   for (int c = 0; c < count; ++c) {
-    const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
-    const Real wx = air.x - face.vx * Real(0.25);
-    const Real wy = air.y - face.vy * Real(0.25);
-    const Real wz = air.z - face.vz * Real(0.25);
+    const std::size_t i = first + static_cast<std::size_t>(c);
+    const Face<Real> face = face_at(p, v, i, stride);
+    const Uniform<Real> wind = air_on_face<Real>(air, i, stride);
+    const Real wx = wind.x - face.vx * Real(0.25);
+    const Real wy = wind.y - face.vy * Real(0.25);
+    const Real wz = wind.z - face.vz * Real(0.25);
     const Real flow = wx * face.ax + wy * face.ay + wz * face.az;
     const Real squared = face.ax * face.ax + face.ay * face.ay + face.az * face.az;
     // (flow/2)^2 (a/2) / (|a|/2)^2 is half of flow^2 a / |a|^2, and a quarter of it goes to each corner.
     const Real size = std::abs(flow) < 2 * most_flow ? std::abs(flow) : 2 * most_flow;
-    const Real scale = Real(0.125) * factor * size * flow / (squared > smallest ? squared : smallest);
+    const Real scale = Real(0.125) * plate.normal * size * flow / (squared > smallest ? squared : smallest);
     fx[c] = scale * face.ax;
     fy[c] = scale * face.ay;
     fz[c] = scale * face.az;
+    if constexpr (kAlong) {
+      const Real wind_squared = squared * (wx * wx + wy * wy + wz * wz);
+      const Real along = Real(0.125) * plate.along * size * flow * flow /
+                         (wind_squared > smallest ? wind_squared : smallest);
+      fx[c] += along * wx;
+      fy[c] += along * wy;
+      fz[c] += along * wz;
+    }
   }
 }
 
@@ -66,10 +99,11 @@ template <class Real>
   for (int c = 0; c <= count; ++c) target[c] += faces[c - 1] + faces[c];
 }
 
-template <class Real>
-[[gnu::always_inline]] inline void add_pressure(const Grid& grid, const Components<const Real>& p,
-                                                const Components<const Real>& v, const Uniform<Real>& air,
-                                                Real factor, Real most_flow, const Components<Real>& force) {
+template <bool kAlong, class Real, class Air>
+[[gnu::always_inline]] inline void add_force(const Grid& grid, const Components<const Real>& p,
+                                             const Components<const Real>& v, const Air& air,
+                                             const Plate<Real>& plate, Real most_flow,
+                                             const Components<Real>& force) {
   alignas(64) Real work[3][kRowAlign + kBlock + kRowAlign] = {};
   Real* const fx = work[0] + kRowAlign;
   Real* const fy = work[1] + kRowAlign;
@@ -80,7 +114,7 @@ template <class Real>
     fx[count] = fy[count] = fz[count] = Real(0);
     for (int r = 0; r + 1 < grid.rows; ++r) {
       const std::size_t first = grid.index(r, begin);
-      pressure_block(p, v, first, stride, count, air, factor, most_flow, fx, fy, fz);
+      force_block<kAlong>(p, v, first, stride, count, air, plate, most_flow, fx, fy, fz);
       for (const std::size_t row : {first, first + stride}) {
         add_to_corners(force.x + row, fx, count);
         add_to_corners(force.y + row, fy, count);
@@ -91,32 +125,45 @@ template <class Real>
 }
 
 /// -dF/dv of each face's corners, see add_air_damping.
-template <class Real>
+template <bool kAlong, class Real, class Air>
 [[gnu::always_inline]] inline void damping_block(const Components<const Real>& p,
                                                  const Components<const Real>& v, std::size_t first,
-                                                 std::size_t stride, int count, const Uniform<Real>& air,
-                                                 Real factor, const Blocks<Real>& faces) {
+                                                 std::size_t stride, int count, const Air& air,
+                                                 const Plate<Real>& plate, const Blocks<Real>& faces) {
   const Real smallest = std::numeric_limits<Real>::min();
   WEFT_INDEPENDENT_ITERATIONS
   for (int c = 0; c < count; ++c) {
-    const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
-    const Real flow = (air.x - face.vx * Real(0.25)) * face.ax + (air.y - face.vy * Real(0.25)) * face.ay +
-                      (air.z - face.vz * Real(0.25)) * face.az;
+    const std::size_t i = first + static_cast<std::size_t>(c);
+    const Face<Real> face = face_at(p, v, i, stride);
+    const Uniform<Real> wind = air_on_face<Real>(air, i, stride);
+    const Real wx = wind.x - face.vx * Real(0.25);
+    const Real wy = wind.y - face.vy * Real(0.25);
+    const Real wz = wind.z - face.vz * Real(0.25);
+    const Real flow = wx * face.ax + wy * face.ay + wz * face.az;
     const Real squared = face.ax * face.ax + face.ay * face.ay + face.az * face.az;
-    const Real scale = Real(0.25) * factor * std::abs(flow) / (squared + smallest);
+    const Real scale = Real(0.25) * plate.normal * std::abs(flow) / (squared + smallest);
     faces.xx[c] = scale * face.ax * face.ax;
     faces.xy[c] = scale * face.ax * face.ay;
     faces.xz[c] = scale * face.ax * face.az;
     faces.yy[c] = scale * face.ay * face.ay;
     faces.yz[c] = scale * face.ay * face.az;
     faces.zz[c] = scale * face.az * face.az;
+    if constexpr (kAlong) {
+      // 2.2 |along| (w.A)^2 / (|A| |w|), a quarter of it; flow and area are twice theirs.
+      const Real wind_squared = squared * (wx * wx + wy * wy + wz * wz);
+      const Real all_ways =
+          Real(0.275) * std::abs(plate.along) * flow * flow / std::sqrt(wind_squared + smallest);
+      faces.xx[c] += all_ways;
+      faces.yy[c] += all_ways;
+      faces.zz[c] += all_ways;
+    }
   }
 }
 
-template <class Real>
+template <bool kAlong, class Real, class Air>
 [[gnu::always_inline]] inline void add_damping(const Grid& grid, const Components<const Real>& p,
-                                               const Components<const Real>& v, const Uniform<Real>& air,
-                                               Real factor, const Blocks<Real>& damping) {
+                                               const Components<const Real>& v, const Air& air,
+                                               const Plate<Real>& plate, const Blocks<Real>& damping) {
   alignas(64) Real work[6][kRowAlign + kBlock + kRowAlign] = {};
   const Blocks<Real> faces{work[0] + kRowAlign, work[1] + kRowAlign, work[2] + kRowAlign,
                            work[3] + kRowAlign, work[4] + kRowAlign, work[5] + kRowAlign};
@@ -126,7 +173,7 @@ template <class Real>
     for (auto& row : work) row[kRowAlign + count] = Real(0);
     for (int r = 0; r + 1 < grid.rows; ++r) {
       const std::size_t first = grid.index(r, begin);
-      damping_block(p, v, first, stride, count, air, factor, faces);
+      damping_block<kAlong>(p, v, first, stride, count, air, plate, faces);
       for (const std::size_t row : {first, first + stride}) {
         add_to_corners(damping.xx + row, faces.xx, count);
         add_to_corners(damping.xy + row, faces.xy, count);
@@ -139,9 +186,9 @@ template <class Real>
   }
 }
 
-template <class Real>
+template <class Real, class Air>
 [[gnu::always_inline]] inline Real max_flow(const Grid& grid, const Components<const Real>& p,
-                                            const Components<const Real>& v, const Uniform<Real>& air) {
+                                            const Components<const Real>& v, const Air& air) {
   // One running maximum per lane: a single one would have to be compared in order.
   alignas(64) Real most[kBlock] = {};
   const auto stride = static_cast<std::size_t>(grid.stride);
@@ -150,10 +197,12 @@ template <class Real>
       const int count = std::min(kBlock, grid.cols - 1 - begin);
       const std::size_t first = grid.index(r, begin);
       for (int c = 0; c < count; ++c) {
-        const Face<Real> face = face_at(p, v, first + static_cast<std::size_t>(c), stride);
+        const std::size_t i = first + static_cast<std::size_t>(c);
+        const Face<Real> face = face_at(p, v, i, stride);
+        const Uniform<Real> wind = air_on_face<Real>(air, i, stride);
         const Real flow =
-            std::abs((air.x - face.vx * Real(0.25)) * face.ax + (air.y - face.vy * Real(0.25)) * face.ay +
-                     (air.z - face.vz * Real(0.25)) * face.az);
+            std::abs((wind.x - face.vx * Real(0.25)) * face.ax + (wind.y - face.vy * Real(0.25)) * face.ay +
+                     (wind.z - face.vz * Real(0.25)) * face.az);
         most[c] = flow > most[c] ? flow : most[c];
       }
     }
@@ -161,14 +210,23 @@ template <class Real>
   return Real(0.5) * *std::max_element(most, most + kBlock);
 }
 
+template <class Real>
+[[gnu::always_inline]] inline Real speed_of(const Uniform<Real>&, const Uniform<Real>&) {
+  return Real(1);
+}
+template <class Real>
+[[gnu::always_inline]] inline Real speed_of(const Components<const float>&, const Uniform<Real>& here) {
+  return std::sqrt(here.x * here.x + here.y * here.y + here.z * here.z);
+}
+
 /// Row `r` of the nodes [begin, begin + count): tangents from the neighbours `left`, `right` columns and
 /// `up`, `down` rows away.
-template <class Real>
+template <class Real, class Air>
 [[gnu::always_inline]] inline void normals_block(const Components<const Real>& p, std::size_t first,
                                                  int count, std::size_t left, std::size_t right,
-                                                 std::size_t up, std::size_t down,
-                                                 const Uniform<Real>& direction, const Real* __restrict mass,
-                                                 const Push<Real>& push, const Components<Real>& force) {
+                                                 std::size_t up, std::size_t down, const Air& air,
+                                                 const Real* __restrict mass, const Push<Real>& push,
+                                                 const Components<Real>& force) {
   const Real smallest = std::numeric_limits<Real>::min();
   Real* __restrict fx = force.x + first;
   Real* __restrict fy = force.y + first;
@@ -182,8 +240,9 @@ template <class Real>
                wz = p.z[i - up] - p.z[i + down];
     const Real nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
     const Real squared = nx * nx + ny * ny + nz * nz;
-    const Real downwind = nx * direction.x + ny * direction.y + nz * direction.z;
-    const Real strength = push.per_node + push.per_mass * mass[i];
+    const Uniform<Real> wind = air_at_node<Real>(air, i);
+    const Real downwind = nx * wind.x + ny * wind.y + nz * wind.z;
+    const Real strength = (push.per_node + push.per_mass * mass[i]) * speed_of(air, wind);
     const Real scale =
         (downwind < Real(0) ? -strength : strength) / std::sqrt(squared > smallest ? squared : smallest);
     fx[c] += scale * nx;
@@ -192,89 +251,101 @@ template <class Real>
   }
 }
 
-template <class Real>
+template <class Real, class Air>
 [[gnu::always_inline]] inline void add_normals(const Grid& grid, const Components<const Real>& p,
-                                               const Real* mass, const Push<Real>& push,
-                                               const Uniform<Real>& direction,
+                                               const Real* mass, const Push<Real>& push, const Air& air,
                                                const Components<Real>& force) {
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t up = r > 0 ? stride : 0;
     const std::size_t down = r + 1 < grid.rows ? stride : 0;
-    normals_block(p, grid.index(r, 0), 1, 0, 1, up, down, direction, mass, push, force);
-    normals_block(p, grid.index(r, 1), grid.cols - 2, 1, 1, up, down, direction, mass, push, force);
-    normals_block(p, grid.index(r, grid.cols - 1), 1, 1, 0, up, down, direction, mass, push, force);
+    normals_block(p, grid.index(r, 0), 1, 0, 1, up, down, air, mass, push, force);
+    normals_block(p, grid.index(r, 1), grid.cols - 2, 1, 1, up, down, air, mass, push, force);
+    normals_block(p, grid.index(r, grid.cols - 1), 1, 1, 0, up, down, air, mass, push, force);
   }
 }
 
 template <class Real>
 [[gnu::always_inline]] inline void push_row(Real* __restrict force, const Real* __restrict mass,
-                                            const Push<Real>& push, Real direction, int count) {
-  for (int c = 0; c < count; ++c) force[c] += (push.per_node + push.per_mass * mass[c]) * direction;
+                                            const Push<Real>& push, Real wind, int count) {
+  for (int c = 0; c < count; ++c) force[c] += (push.per_node + push.per_mass * mass[c]) * wind;
 }
 
 template <class Real>
+[[gnu::always_inline]] inline void push_row(Real* __restrict force, const Real* __restrict mass,
+                                            const Push<Real>& push, const float* wind, int count) {
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = 0; c < count; ++c) force[c] += (push.per_node + push.per_mass * mass[c]) * Real(wind[c]);
+}
+
+/// The wind along a row.
+template <class Real>
+[[gnu::always_inline]] inline const Uniform<Real>& in_row(const Uniform<Real>& air, std::size_t) {
+  return air;
+}
+[[gnu::always_inline]] inline Components<const float> in_row(const Components<const float>& air,
+                                                             std::size_t first) {
+  return air + first;
+}
+
+template <class Real, class Air>
 [[gnu::always_inline]] inline void push_all(const Grid& grid, const Real* mass, const Push<Real>& push,
-                                            const Uniform<Real>& direction, const Components<Real>& force) {
+                                            const Air& air, const Components<Real>& force) {
   for (int r = 0; r < grid.rows; ++r) {
     const std::size_t first = grid.index(r, 0);
-    push_row(force.x + first, mass + first, push, direction.x, grid.cols);
-    push_row(force.y + first, mass + first, push, direction.y, grid.cols);
-    push_row(force.z + first, mass + first, push, direction.z, grid.cols);
+    const Air wind = in_row(air, first);
+    push_row(force.x + first, mass + first, push, wind.x, grid.cols);
+    push_row(force.y + first, mass + first, push, wind.y, grid.cols);
+    push_row(force.z + first, mass + first, push, wind.z, grid.cols);
   }
 }
 
 }  // namespace
 
-WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const float> position,
-                                        Components<const float> velocity, const Uniform<float>& air,
-                                        float factor, float most_flow, Components<float> force) {
-  add_pressure(grid, position, velocity, air, factor, most_flow, force);
-}
-WEFT_MULTIVERSION void add_air_pressure(const Grid& grid, Components<const double> position,
-                                        Components<const double> velocity, const Uniform<double>& air,
-                                        double factor, double most_flow, Components<double> force) {
-  add_pressure(grid, position, velocity, air, factor, most_flow, force);
-}
+// target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
+#define WEFT_AIR_KERNELS(Real, Air)                                                                        \
+  template <>                                                                                              \
+  WEFT_MULTIVERSION void add_air_force(const Grid& grid, Components<const Real> position,                  \
+                                       Components<const Real> velocity, const Air& air,                    \
+                                       const Plate<Real>& plate, Real most_flow, Components<Real> force) { \
+    if (plate.along == 0) {                                                                                \
+      add_force<false, Real, Air>(grid, position, velocity, air, plate, most_flow, force);                 \
+    } else {                                                                                               \
+      add_force<true, Real, Air>(grid, position, velocity, air, plate, most_flow, force);                  \
+    }                                                                                                      \
+  }                                                                                                        \
+  template <>                                                                                              \
+  WEFT_MULTIVERSION void add_air_damping(const Grid& grid, Components<const Real> position,                \
+                                         Components<const Real> velocity, const Air& air,                  \
+                                         const Plate<Real>& plate, const Blocks<Real>& damping) {          \
+    if (plate.along == 0) {                                                                                \
+      add_damping<false, Real, Air>(grid, position, velocity, air, plate, damping);                        \
+    } else {                                                                                               \
+      add_damping<true, Real, Air>(grid, position, velocity, air, plate, damping);                         \
+    }                                                                                                      \
+  }                                                                                                        \
+  template <>                                                                                              \
+  WEFT_MULTIVERSION Real max_air_flow(const Grid& grid, Components<const Real> position,                   \
+                                      Components<const Real> velocity, const Air& air) {                   \
+    return max_flow<Real, Air>(grid, position, velocity, air);                                             \
+  }                                                                                                        \
+  template <>                                                                                              \
+  WEFT_MULTIVERSION void add_push(const Grid& grid, const Real* mass, const Push<Real>& push,              \
+                                  const Air& wind, Components<Real> force) {                               \
+    push_all<Real, Air>(grid, mass, push, wind, force);                                                    \
+  }                                                                                                        \
+  template <>                                                                                              \
+  WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const Real> position,         \
+                                                const Real* mass, const Push<Real>& push, const Air& wind, \
+                                                Components<Real> force) {                                  \
+    add_normals<Real, Air>(grid, position, mass, push, wind, force);                                       \
+  }
 
-WEFT_MULTIVERSION void add_air_damping(const Grid& grid, Components<const float> position,
-                                       Components<const float> velocity, const Uniform<float>& air,
-                                       float factor, const Blocks<float>& damping) {
-  add_damping<float>(grid, position, velocity, air, factor, damping);
-}
-WEFT_MULTIVERSION void add_air_damping(const Grid& grid, Components<const double> position,
-                                       Components<const double> velocity, const Uniform<double>& air,
-                                       double factor, const Blocks<double>& damping) {
-  add_damping<double>(grid, position, velocity, air, factor, damping);
-}
-
-WEFT_MULTIVERSION float max_air_flow(const Grid& grid, Components<const float> position,
-                                     Components<const float> velocity, const Uniform<float>& air) {
-  return max_flow(grid, position, velocity, air);
-}
-WEFT_MULTIVERSION double max_air_flow(const Grid& grid, Components<const double> position,
-                                      Components<const double> velocity, const Uniform<double>& air) {
-  return max_flow(grid, position, velocity, air);
-}
-
-WEFT_MULTIVERSION void add_push(const Grid& grid, const float* mass, const Push<float>& push,
-                                const Uniform<float>& direction, Components<float> force) {
-  push_all(grid, mass, push, direction, force);
-}
-WEFT_MULTIVERSION void add_push(const Grid& grid, const double* mass, const Push<double>& push,
-                                const Uniform<double>& direction, Components<double> force) {
-  push_all(grid, mass, push, direction, force);
-}
-
-WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const float> position,
-                                              const float* mass, const Push<float>& push,
-                                              const Uniform<float>& direction, Components<float> force) {
-  add_normals(grid, position, mass, push, direction, force);
-}
-WEFT_MULTIVERSION void add_push_along_normals(const Grid& grid, Components<const double> position,
-                                              const double* mass, const Push<double>& push,
-                                              const Uniform<double>& direction, Components<double> force) {
-  add_normals(grid, position, mass, push, direction, force);
-}
+WEFT_AIR_KERNELS(float, Uniform<float>)
+WEFT_AIR_KERNELS(double, Uniform<double>)
+WEFT_AIR_KERNELS(float, Components<const float>)
+WEFT_AIR_KERNELS(double, Components<const float>)
+#undef WEFT_AIR_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels

@@ -10,48 +10,54 @@ struct Uniform {
   Real x, y, z;
 };
 
-/// Flat-plate pressure on every face (cell), a quarter of it on each corner: F = factor |w.A| (w.A) A / |A|^2
-/// with A the face's area vector, half the cross product of its diagonals, and w the air's velocity relative
-/// to the mean of the corners'. factor = 1/2 rho C. The first |w.A| counts no more than `most_flow`, m3/s:
-/// the force then grows with speed no longer by its square.
-void add_air_pressure(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                      const Uniform<float>& air, float factor, float most_flow, Components<float> force);
-void add_air_pressure(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                      const Uniform<double>& air, double factor, double most_flow, Components<double> force);
+/// What a face gives the air that flows through it: 1/2 rho times the coefficients.
+template <class Real>
+struct Plate {
+  Real normal;  ///< 1/2 rho C_L: along the normal
+  Real along;   ///< 1/2 rho (C_D - C_L): besides, along the relative wind
+};
 
-/// Adds -dF/dv of add_air_pressure (without a limit to the flow) to every node's matrix, N s/m: of each face
-/// 2 factor |w.A| n n^T, a quarter to each corner as if only that corner moved the face's air.
-void add_air_damping(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                     const Uniform<float>& air, float factor, const Blocks<float>& damping);
-void add_air_damping(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                     const Uniform<double>& air, double factor, const Blocks<double>& damping);
+// Below, Air is the air's velocity: Uniform, or Components<const float> of every node.
+
+/// The force on every face (cell), a quarter of it on each corner: normal |w.A| (w.A) A / |A|^2 +
+/// along |w.A| (w.A)^2 w / (|A|^2 |w|^2) with A the face's area vector, half the cross product of its
+/// diagonals, and w the air's velocity relative to the mean of the corners'. The first |w.A| counts no more
+/// than `most_flow`, m3/s: the force then grows with speed no longer by its square.
+template <class Real, class Air>
+void add_air_force(const Grid& grid, Components<const Real> position, Components<const Real> velocity,
+                   const Air& air, const Plate<Real>& plate, Real most_flow, Components<Real> force);
+
+/// Adds -dF/dv of add_air_force (without a limit to the flow), or what is no less, to every node's matrix,
+/// N s/m, a quarter of each face's to each corner as if only that corner moved the face's air. The part along
+/// the normal has 2 normal |w.A| n n^T. The other one's is neither symmetric nor definite; with c = w_n/|w|
+/// the largest eigenvalue of its symmetric part is |w.A| times at most 2.19 |along c|, so it gets
+/// 2.2 |along c w.A| in all directions.
+template <class Real, class Air>
+void add_air_damping(const Grid& grid, Components<const Real> position, Components<const Real> velocity,
+                     const Air& air, const Plate<Real>& plate, const Blocks<Real>& damping);
 
 /// Largest |w.A| of any face, m3/s.
-float max_air_flow(const Grid& grid, Components<const float> position, Components<const float> velocity,
-                   const Uniform<float>& air);
-double max_air_flow(const Grid& grid, Components<const double> position, Components<const double> velocity,
-                    const Uniform<double>& air);
+template <class Real, class Air>
+Real max_air_flow(const Grid& grid, Components<const Real> position, Components<const Real> velocity,
+                  const Air& air);
 
-/// Strength of the paper's wind on a node, N: per_node + per_mass * mass.
+/// Strength of the paper's wind on a node, N, where it blows at unit speed: per_node + per_mass * mass.
 template <class Real>
 struct Push {
   Real per_node;
   Real per_mass;
 };
 
-/// force += push * direction on every node.
-void add_push(const Grid& grid, const float* mass, const Push<float>& push, const Uniform<float>& direction,
-              Components<float> force);
-void add_push(const Grid& grid, const double* mass, const Push<double>& push,
-              const Uniform<double>& direction, Components<double> force);
+/// force += push * wind on every node.
+template <class Real, class Air>
+void add_push(const Grid& grid, const Real* mass, const Push<Real>& push, const Air& wind,
+              Components<Real> force);
 
-/// force += push * N, N the unit normal of the surface at the node (from its four neighbours, fewer on the
-/// border), turned towards `direction`; nothing where the neighbours span no surface.
-void add_push_along_normals(const Grid& grid, Components<const float> position, const float* mass,
-                            const Push<float>& push, const Uniform<float>& direction,
-                            Components<float> force);
-void add_push_along_normals(const Grid& grid, Components<const double> position, const double* mass,
-                            const Push<double>& push, const Uniform<double>& direction,
-                            Components<double> force);
+/// force += push |wind| N, N the unit normal of the surface at the node (from its four neighbours, fewer on
+/// the border), turned towards the wind; nothing where the neighbours span no surface. A Uniform wind must
+/// be of unit length.
+template <class Real, class Air>
+void add_push_along_normals(const Grid& grid, Components<const Real> position, const Real* mass,
+                            const Push<Real>& push, const Air& wind, Components<Real> force);
 
 }  // namespace weft::kernels

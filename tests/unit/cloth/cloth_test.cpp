@@ -42,7 +42,7 @@ std::vector<std::pair<int, int>> held(const Cloth<Real>& cloth) {
 
 void advance(Cloth<double>& cloth, int steps, const Wind& wind = {}) {
   std::vector<Solid> no_solids;
-  for (int step = 0; step < steps; ++step) cloth.advance(no_solids, wind, step * kFrame, kFrame);
+  for (int step = 0; step < steps; ++step) cloth.advance(no_solids, Air(wind, 1), step * kFrame, kFrame);
 }
 
 // --- Start ---

@@ -141,6 +141,29 @@ TEST(SleepTest, AnotherWindWakesTheSameDoesNot) {
   EXPECT_FALSE(test::same_bits(simulation.cloths()[0].particles().position, before.position));
 }
 
+TEST(SleepTest, GustsAndTurbulenceKeepItAwakeAZoneDoesNot) {
+  // Along the sheet, so that a flat plate feels nothing: what keeps it awake is that the air changes.
+  SimulationDescription scene = floating_scene();
+  scene.wind = {{1, 0, 0}, 2.0};
+  scene.wind.gusts.intensity = 0.2;
+  Simulation<float> gusty(scene);
+  run(gusty, 200);
+  EXPECT_FALSE(asleep(gusty));
+  Wind steady = gusty.wind();
+  steady.gusts.intensity = 0;
+  gusty.set_wind(steady);
+  run(gusty, Sleep::kQuietSteps + 1);
+  EXPECT_TRUE(asleep(gusty));
+  scene.wind = {{1, 0, 0}, 2.0};
+  scene.wind.turbulence.intensity = 1e-6;
+  Simulation<float> turbulent(scene);
+  run(turbulent, 200);
+  EXPECT_FALSE(asleep(turbulent));
+  scene.wind.turbulence.intensity = 0;
+  scene.wind.zones = {{SphereZone{0.5}, {0, 0, 0}, {0, 3, 0}, 0.1}};
+  sleeping<float>(scene);
+}
+
 TEST(SleepTest, AnotherLevelOrIntegratorWakesIt) {
   auto simulation = sleeping<float>(floating_scene());
   simulation.request_level(0, 4);

@@ -238,6 +238,14 @@ TEST(Threads, ClothsThatShareBallsHaveTheSameBitsOnAnyNumber) {
   expect_same_bits(stacked_sheets(), kAll, kStackSteps, 4);
 }
 
+TEST(Threads, ClothsInTurbulenceHaveTheSameBitsOnAnyNumber) {
+  SimulationDescription scene = stacked_sheets();
+  scene.wind.gusts = {0.3, 1.0};
+  scene.wind.turbulence = {0.3, 0.3};
+  scene.wind.zones = {{SphereZone{0.3}, {0, 0, 0}, {0, 2, 0}, 0.2}};
+  expect_same_bits(scene, kAll, kStackSteps / 10, 0);
+}
+
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {
   expect_same_bits(large_sheet(), kImplicit, kLargeSteps, 1);
 }

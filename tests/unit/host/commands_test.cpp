@@ -53,6 +53,30 @@ TEST_F(Commands, TakeEffectInTheNextStep) {
   EXPECT_EQ(live.simulation().wind().speed, 3.0);
 }
 
+TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
+  command(WindSet{{1, 0, 0}, 3.0, 0.25});
+  EXPECT_EQ(other.last("event", "wind").at("wind"),
+            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"gusts", 0.25}}));
+  command(WindSet{{0, 0, -1}, 5.0});
+  EXPECT_EQ(live.simulation().wind().gusts.intensity, 0.25);
+  command(WindSet{{0, 0, -1}, 5.0, 0.0});
+  EXPECT_EQ(live.simulation().wind().gusts.intensity, 0.0);
+  EXPECT_FALSE(other.last("event", "wind").at("wind").contains("gusts"));
+}
+
+TEST_F(Commands, AWindThatIsSetKeepsTheScenesTurbulenceAndZones) {
+  scene::Scene scene = hung_cloth();
+  scene.simulation.wind.turbulence = {0.3, 0.7};
+  scene.simulation.wind.zones = {WindZone{}};
+  LiveScene windy(scene, Limits{});
+  const std::uint64_t entered = reader.viewer->enter();
+  windy.add_viewer(reader.viewer, entered);
+  windy.apply(reader.viewer, entered, {1, WindSet{{1, 0, 0}, 3.0}});
+  EXPECT_EQ(windy.simulation().wind().speed, 3.0);
+  EXPECT_EQ(windy.simulation().wind().turbulence.intensity, 0.3);
+  EXPECT_EQ(windy.simulation().wind().zones.size(), 1U);
+}
+
 TEST_F(Commands, WithoutAnIdOnlyErrorsAreAnswered) {
   const auto before = reader.texts.size();
   live.apply(reader.viewer, visit, {std::nullopt, Camera{2.0, std::nullopt}});

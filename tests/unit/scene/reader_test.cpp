@@ -163,8 +163,22 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_TRUE(std::get<PaperWindEffect>(simulation.effects[2]).along_normal);
   EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).air_density, 1);
   EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).drag, 1.5);
+  EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).lift, 0.5);
   EXPECT_LT((simulation.wind.direction - Vec3(0.6, 0, -0.8)).norm(), 1e-15);  // 3, 4, 5
   EXPECT_EQ(simulation.wind.speed, 7);
+  EXPECT_EQ(simulation.wind.gusts.intensity, 0.25);
+  EXPECT_EQ(simulation.wind.gusts.time_scale, 4);
+  EXPECT_EQ(simulation.wind.turbulence.intensity, 0.125);
+  EXPECT_EQ(simulation.wind.turbulence.length_scale, 0.75);
+  ASSERT_EQ(simulation.wind.zones.size(), 2u);
+  const auto& zone_box = std::get<BoxZone>(simulation.wind.zones[0].shape);
+  EXPECT_EQ(zone_box.size, Vec3(1, 2, 4));
+  EXPECT_LT((zone_box.orientation * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_EQ(simulation.wind.zones[0].position, Vec3(1, 2, 3));
+  EXPECT_EQ(simulation.wind.zones[0].velocity, Vec3(0, 0, -6));
+  EXPECT_EQ(simulation.wind.zones[0].edge, 0.5);
+  EXPECT_EQ(std::get<SphereZone>(simulation.wind.zones[1].shape).radius, 1.5);
+  EXPECT_EQ(simulation.wind.zones[1].edge, 0.1);  // the default
   EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).substeps, 40);
   EXPECT_EQ(std::get<SymplecticEulerDescription>(simulation.integrator).safety, 0.5);
   EXPECT_EQ(simulation.time_step, 0.01);

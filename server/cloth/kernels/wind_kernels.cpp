@@ -1,0 +1,93 @@
+#include "cloth/kernels/wind_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/kernels/cosine.h"
+#include "cloth/multiversion.h"
+
+namespace weft::kernels {
+namespace {
+
+/// Points handled at a time, whose sums stay in the first-level cache from wave to wave.
+constexpr std::size_t kBlock = 128;
+
+[[gnu::always_inline]] inline void add_wave(const AirWave& wave, const float* __restrict x,
+                                            const float* __restrict y, const float* __restrict z,
+                                            std::size_t count, float* __restrict vx, float* __restrict vy,
+                                            float* __restrict vz) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float turns = wave.kx * x[i] + wave.ky * y[i] + wave.kz * z[i] + wave.phase;
+    const float cosine = cosine_of_turns(turns);
+    vx[i] += wave.ax * cosine;
+    vy[i] += wave.ay * cosine;
+    vz[i] += wave.az * cosine;
+  }
+}
+
+/// Of a point from the zone.
+[[gnu::always_inline]] inline float distance_to(const AirZone& zone, float x, float y, float z) {
+  x -= zone.centre[0];
+  y -= zone.centre[1];
+  z -= zone.centre[2];
+  float squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* own = zone.axes[axis];
+    const float beyond = std::abs(own[0] * x + own[1] * y + own[2] * z) - zone.half[axis];
+    const float outside = beyond > 0.0F ? beyond : 0.0F;
+    squared += outside * outside;
+  }
+  const float beyond = std::sqrt(squared) - zone.radius;
+  return beyond > 0.0F ? beyond : 0.0F;
+}
+
+}  // namespace
+
+WEFT_MULTIVERSION void add_waves(const AirWave* waves, int wave_count, Components<const float> points,
+                                 std::size_t count, Components<float> velocity) {
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t block = std::min(kBlock, count - begin);
+    const Components<const float> p = points + begin;
+    const Components<float> v = velocity + begin;
+    for (int n = 0; n < wave_count; ++n) add_wave(waves[n], p.x, p.y, p.z, block, v.x, v.y, v.z);
+  }
+}
+
+WEFT_MULTIVERSION void blend_zone(const AirZone& zone, Components<const float> points, std::size_t count,
+                                  Components<float> velocity) {
+  const AirZone own = zone;  // which the loop does not write to
+  WEFT_INDEPENDENT_ITERATIONS
+  for (std::size_t i = 0; i < count; ++i) {
+    const float edges = distance_to(own, points.x[i], points.y[i], points.z[i]) * own.one_over_edge;
+    const float s = edges < 1.0F ? edges : 1.0F;
+    const float weight = 1.0F - s * s * (3.0F - 2.0F * s);
+    velocity.x[i] += weight * (own.velocity[0] - velocity.x[i]);
+    velocity.y[i] += weight * (own.velocity[1] - velocity.y[i]);
+    velocity.z[i] += weight * (own.velocity[2] - velocity.z[i]);
+  }
+}
+
+WEFT_MULTIVERSION void add_between(int coarse_rows, int coarse_cols, Components<const float> coarse, int rows,
+                                   int cols, const Grid& fine, Components<float> velocity) {
+  const float* const from[3] = {coarse.x, coarse.y, coarse.z};
+  float* const to[3] = {velocity.x, velocity.y, velocity.z};
+  for (int component = 0; component < 3; ++component) {
+    for (int r = 0; r < fine.rows; ++r) {
+      const int above = r / rows, below = std::min(above + 1, coarse_rows - 1);
+      const float down = static_cast<float>(r % rows) / static_cast<float>(rows);
+      const float* upper = from[component] + static_cast<std::ptrdiff_t>(above) * coarse_cols;
+      const float* lower = from[component] + static_cast<std::ptrdiff_t>(below) * coarse_cols;
+      float* out = to[component] + fine.index(r, 0);
+      for (int c = 0; c < coarse_cols; ++c) {
+        const int next = std::min(c + 1, coarse_cols - 1);
+        const float left = upper[c] + down * (lower[c] - upper[c]);
+        const float right = upper[next] + down * (lower[next] - upper[next]);
+        const float step = (right - left) / static_cast<float>(cols);
+        const int count = std::min(cols, fine.cols - c * cols);
+        for (int i = 0; i < count; ++i) out[c * cols + i] += left + static_cast<float>(i) * step;
+      }
+    }
+  }
+}
+
+}  // namespace weft::kernels
