@@ -45,7 +45,8 @@ double spring_energy(const Simulation<float>& simulation, const Cloth<float>& cl
   const Particles<float>& state = cloth.particles();
   if (backward_euler == nullptr && bdf2 == nullptr) return cloth.springs().energy(state.position);
   const int substeps = bdf2 != nullptr ? bdf2->substeps : backward_euler->substeps;
-  const auto soft = softened_springs(cloth.springs(), cloth.description(), state.mass, scene.time_step / substeps);
+  const auto soft =
+      softened_springs(cloth.springs(), cloth.description(), state.mass, scene.time_step / substeps);
   return (soft ? *soft : cloth.springs()).energy(state.position);
 }
 

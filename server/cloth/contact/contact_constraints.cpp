@@ -107,8 +107,8 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
   };
   std::vector<Constraint> kept;
   for (auto node = constraints_.begin(); node != constraints_.end();) {
-    const auto end = std::find_if(
-        node, constraints_.end(), [&](const Constraint& c) { return c.touch.node != node->touch.node; });
+    const auto end = std::find_if(node, constraints_.end(),
+                                  [&](const Constraint& c) { return c.touch.node != node->touch.node; });
     const bool stuck = std::any_of(node, end, [&](const Constraint& a) {
       return std::any_of(node, end, [&](const Constraint& b) { return pinched(a, b); });
     });

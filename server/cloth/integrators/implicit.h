@@ -52,11 +52,11 @@ class Implicit final : public Integrator<Real> {
     ContactConstraints<Real> contacts;
     double h = 0;                       ///< s, of the last step's substeps
     std::optional<Springs<Real>> soft;  ///< in place of the cloth's, where those are too stiff for h
-    double scale = 0;    ///< energy that the substep's motion is of, J
-    double slow = 0;     ///< m/s, as slow as motion need be told from rest
-    SolveTarget target;  ///< of the substep's solves
-    bool smooth = true;  ///< the substep was not taken back
-    bool sound = true;   ///< a move was found in every substep of the step
+    double scale = 0;                   ///< energy that the substep's motion is of, J
+    double slow = 0;                    ///< m/s, as slow as motion need be told from rest
+    SolveTarget target;                 ///< of the substep's solves
+    bool smooth = true;                 ///< the substep was not taken back
+    bool sound = true;                  ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
