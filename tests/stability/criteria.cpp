@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cloth/diagnostics.h"
+#include "cloth/integrators/softened_springs.h"
 
 namespace weft::stability {
 namespace {
@@ -36,6 +37,19 @@ void read_nodes(const Cloth<float>& cloth, const std::vector<Solid>& solids, Rea
   }
 }
 
+/// Springs that an implicit step softens (softened_springs.h) give back no more than they then hold.
+double spring_energy(const Simulation<float>& simulation, const Cloth<float>& cloth) {
+  const SimulationDescription& scene = simulation.description();
+  const auto* backward_euler = std::get_if<BackwardEulerDescription>(&scene.integrator);
+  const auto* bdf2 = std::get_if<Bdf2Description>(&scene.integrator);
+  const Particles<float>& state = cloth.particles();
+  if (backward_euler == nullptr && bdf2 == nullptr) return cloth.springs().energy(state.position);
+  const int substeps = bdf2 != nullptr ? bdf2->substeps : backward_euler->substeps;
+  const auto soft =
+      softened_springs(cloth.springs(), cloth.description(), state.mass, scene.time_step / substeps);
+  return (soft ? *soft : cloth.springs()).energy(state.position);
+}
+
 bool falls(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
 
 }  // namespace
@@ -46,7 +60,7 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   for (const Cloth<float>& cloth : simulation.cloths()) {
     const Particles<float>& state = cloth.particles();
     reading.energy += kinetic_energy(state) + gravitational_energy(state, simulation.gravity());
-    if (springs_count) reading.energy += cloth.springs().energy(state.position);
+    if (springs_count) reading.energy += spring_energy(simulation, cloth);
     read_springs(cloth, reading);
     read_nodes(cloth, simulation.colliders().solids(), reading);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cloth/contact/node_contact.h"
 #include "cloth/solver/node_vector.h"
 
 namespace weft {
@@ -90,6 +91,35 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     std::sort(constraints_.begin(), constraints_.end(),
               [](const Constraint& a, const Constraint& b) { return a.touch < b.touch; });
   }
+  if (solids.size() > 1) let_go_of_pinched(velocity);
+}
+
+template <class Real>
+void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real> velocity) {
+  const auto room = [&](const Constraint& c) {
+    return substep_.seconds * c.normal.dot(at(velocity, c.touch.node)) - c.distance;
+  };
+  const auto pinched = [&](const Constraint& a, const Constraint& b) {
+    return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
+  };
+  const auto moves_least = [](const Constraint& a, const Constraint& b) {
+    return a.solid_move.squaredNorm() < b.solid_move.squaredNorm();
+  };
+  std::vector<Constraint> kept;
+  for (auto node = constraints_.begin(); node != constraints_.end();) {
+    const auto end = std::find_if(node, constraints_.end(),
+                                  [&](const Constraint& c) { return c.touch.node != node->touch.node; });
+    const bool stuck = std::any_of(node, end, [&](const Constraint& a) {
+      return std::any_of(node, end, [&](const Constraint& b) { return pinched(a, b); });
+    });
+    if (stuck) {
+      kept.push_back(*std::min_element(node, end, moves_least));
+    } else {
+      kept.insert(kept.end(), node, end);
+    }
+    node = end;
+  }
+  constraints_.swap(kept);
 }
 
 /// The body that the solid is, a new one if need be.

@@ -17,6 +17,9 @@ namespace weft {
 /// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
 /// that is heavier than they are would gain energy without bound.
 ///
+/// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
+/// will have it: both would squeeze it out sideways, and stretch its springs at nobody's cost.
+///
 /// Nodes that will meet a solid in the step are held to its surface from the start: put there after the step
 /// they would stretch their springs at nobody's cost.
 template <class Real>
@@ -66,6 +69,7 @@ class ContactConstraints {
     double force = 0;               ///< along the normal, N
     bool released = false;
   };
+  void let_go_of_pinched(kernels::Components<const Real> velocity);
   std::optional<int> body_of(std::size_t index, const Solid& solid, AttachedBodies<Real>& bodies);
   static Vec3 move_of(const Constraint& c, kernels::Components<const Real> move,
                       const AttachedBodies<Real>& bodies);

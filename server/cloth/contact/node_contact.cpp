@@ -10,8 +10,6 @@ namespace {
 /// Projections onto one solid after another before a node between overlapping solids is led straight out of
 /// all of them.
 constexpr int kProjections = 4;
-/// Cosine of the angle between the normals of solids that face each other: 120 degrees or more.
-constexpr double kFacing = -0.5;
 /// A direction shorter than this part of a unit vector is none.
 constexpr double kNoDirection = 1e-6;
 

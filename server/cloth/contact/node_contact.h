@@ -7,6 +7,9 @@
 
 namespace weft {
 
+/// Cosine of the angle between the normals of solids that face each other: 120 degrees or more.
+inline constexpr double kFacing = -0.5;
+
 /// A solid in a substep.
 struct MovingSolid {
   const Solid* solid;

@@ -21,7 +21,6 @@ constexpr double kSmallestShare = 1e-4;
 constexpr double kSlow = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
-
 template <class Real>
 void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
   std::copy_n(from.x, count, to.x);
@@ -76,7 +75,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   AdvanceReport report;
   report.substeps = parameters_.substeps;
   const double h = dt / parameters_.substeps;
-  begin_step(particles, *forces.springs);
+  begin_step(particles, forces, h);
   state_->sound = true;
   ContactConstraints<Real>& contacts = state_->contacts;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
@@ -110,12 +109,17 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
 }
 
 template <class Real>
-void Implicit<Real>::begin_step(const Particles<Real>& particles, const Springs<Real>& springs) {
+void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
-    state_.emplace(grid, springs.has_bending());
-    state_->slow = kSlow * extent(springs.families(), grid);
+    state_.emplace(grid, forces.springs->has_bending());
+    state_->slow = kSlow * extent(forces.springs->families(), grid);
   }
+  if (state_->h != h) {
+    state_->h = h;
+    state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
+  }
+  if (state_->soft) forces.springs = &*state_->soft;
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);

@@ -3,6 +3,7 @@
 
 #include "cloth/contact/contact_constraints.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/softened_springs.h"
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/solver/conjugate_gradients.h"
 
@@ -49,14 +50,16 @@ class Implicit final : public Integrator<Real> {
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     ContactConstraints<Real> contacts;
-    double scale = 0;    ///< energy that the substep's motion is of, J
-    double slow = 0;     ///< m/s, as slow as motion need be told from rest
-    SolveTarget target;  ///< of the substep's solves
-    bool smooth = true;  ///< the substep was not taken back
-    bool sound = true;   ///< a move was found in every substep of the step
+    double h = 0;                       ///< s, of the last step's substeps
+    std::optional<Springs<Real>> soft;  ///< in place of the cloth's, where those are too stiff for h
+    double scale = 0;                   ///< energy that the substep's motion is of, J
+    double slow = 0;                    ///< m/s, as slow as motion need be told from rest
+    SolveTarget target;                 ///< of the substep's solves
+    bool smooth = true;                 ///< the substep was not taken back
+    bool sound = true;                  ///< a move was found in every substep of the step
   };
 
-  void begin_step(const Particles<Real>& particles, const Springs<Real>& springs);
+  void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
   void begin_substep(const Particles<Real>& particles, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
