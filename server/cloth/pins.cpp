@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/path.h"
-
 namespace weft {
 namespace {
 

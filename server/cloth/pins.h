@@ -3,6 +3,7 @@
 
 #include "cloth/description.h"
 #include "cloth/particles.h"
+#include "cloth/path.h"
 
 namespace weft {
 
@@ -21,6 +22,14 @@ class Pins {
   double end_of_motion() const { return end_of_motion_; }
   /// Puts the nodes that a path carries where they are at `time`, s.
   void carry(Particles<Real>& particles, double time) const;
+  /// Calls visit(node, way) for the nodes that a path carries, with their way from `begin` to `end`, s, in m.
+  template <class Visit>
+  void for_each_way(double begin, double end, Visit visit) const {
+    for (const Path& path : carried_) {
+      const Vec3 way = along_path(path.points, end) - along_path(path.points, begin);
+      for (const Carried& carried : path.nodes) visit(carried.node, way);
+    }
+  }
 
  private:
   struct Carried {

@@ -46,7 +46,7 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   for (const Cloth<float>& cloth : simulation.cloths()) {
     const Particles<float>& state = cloth.particles();
     reading.energy += kinetic_energy(state) + gravitational_energy(state, simulation.gravity());
-    if (springs_count) reading.energy += cloth.springs().energy(state.position);
+    if (springs_count) reading.energy += cloth.elastic_energy();
     read_springs(cloth, reading);
     read_nodes(cloth, simulation.colliders().solids(), reading);
   }
@@ -70,7 +70,7 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
     rounding += stiffness * made.size.x() * made.size.y() * kRoundingStrain * kRoundingStrain / 2;
     // Held by an edge it falls by its height, and back up on the other side.
     const double fall = cloth.description().size.norm();
-    moving += kinetic_energy(state) + cloth.springs().energy(state.position) +
+    moving += kinetic_energy(state) + cloth.elastic_energy() +
               cloth.total_mass() * simulation.gravity().norm() * fall;
   }
   for (const Ball& each : simulation.colliders().balls()) {
