@@ -47,7 +47,7 @@ struct AerodynamicsEffect {
 /// A mode of angular frequency w decays at tau w^2 / 2; a cloth that moves or turns as a whole keeps its
 /// motion.
 struct StrainDampingEffect {
-  double time = 1e-3;  ///< tau, s; finite, >= 0. Explicit methods need substeps as its square root, or more.
+  double time = 1e-3;  ///< tau, s; finite, >= 0. Explicit methods need substeps in proportion to it.
   static constexpr const char* kName = "strain_damping";
 };
 

@@ -161,8 +161,8 @@ double rolled(const Rigidity& rigidity, double angle, int n) {
 }
 
 TEST(Plate, ARolledSheetHoldsItsRigidityInThatDirection) {
-  // B/(2 R^2) a square metre: of u, of v, and along the bias (u + v + 2 twist) / 4. Second order: free
-  // borders hold no moment at their last node, half a cell's width on either side, which is of first order.
+  // B/(2 R^2) a square metre: of u, of v, and along the bias (u + v + 2 twist) / 4. Of first order, as
+  // free borders hold no moment at their last node, half a cell's width on either side.
   const double quarter = std::numbers::pi / 4;
   const double curvature = 1 / (2 * 0.5 * 0.5);
   for (const int n : {16, 64, 256}) {
