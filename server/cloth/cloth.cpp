@@ -73,6 +73,10 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
       integrator_(make_integrator<Real>(integrator)),
       guard_(integrator),
       sleep_(sleep_speed) {
+  for (const EffectDescription& effect : effects) {
+    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
+    bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
+  }
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
   Particles<Real> particles(description_.base_cells.at(level));
   place(description_, particles);
@@ -86,6 +90,11 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
 template <class Real>
 ContactCounters Cloth<Real>::contact_counters() const {
   return contact_ ? earlier_contacts_ + contact_->counters() : earlier_contacts_;
+}
+
+template <class Real>
+double Cloth<Real>::elastic_energy() const {
+  return springs_.energy(particles_.position) + (plate_ ? plate_->energy(particles_.position) : 0.0);
 }
 
 template <class Real>
@@ -139,8 +148,10 @@ void Cloth<Real>::hand_to_guard() {
 
 template <class Real>
 void Cloth<Real>::make_springs() {
-  springs_ =
-      Springs<Real>(description_.material, description_.discretization, description_.size, particles_.grid());
+  springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
+                           particles_.grid(), damping_time_);
+  if (bends_plate_)
+    plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass);
 }
 
 template <class Real>
@@ -251,7 +262,7 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   EffectContext context{&description_, &air.wind(), time};
   context.gusts = air.gusts();
   context.node_air = node_air(air, time, dt);
-  const Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr};
+  const Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr, plate()};
   return integrator_->advance(particles_, forces, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 

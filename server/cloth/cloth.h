@@ -24,6 +24,10 @@ class Cloth {
   /// Whoever writes to them wakes the cloth.
   Particles<Real>& particles() { return particles_; }
   const Springs<Real>& springs() const { return springs_; }
+  /// nullptr where plates are not bent.
+  const Plate<Real>* plate() const { return plate_ ? &*plate_ : nullptr; }
+  /// J, of springs and plate.
+  double elastic_energy() const;
   double total_mass() const { return total_mass_; }  ///< kg; the same at every level
   ContactCounters contact_counters() const;
 
@@ -91,8 +95,11 @@ class Cloth {
   std::optional<int> pending_level_;
   Particles<Real> particles_;
   Pins<Real> pins_;
-  double time_ = 0;  ///< s, at the end of the last step that was made
+  double time_ = 0;           ///< s, at the end of the last step that was made
+  double damping_time_ = 0;   ///< s, of the springs (StrainDampingEffect)
+  bool bends_plate_ = false;  ///< PlateBendingEffect is listed
   Springs<Real> springs_;
+  std::optional<Plate<Real>> plate_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;
   Grabs<Real>* grabs_ = nullptr;                  ///< one of effects_ as long as something is held
   std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it

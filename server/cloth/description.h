@@ -49,7 +49,21 @@ struct AerodynamicsEffect {
   static constexpr const char* kName = "aerodynamics";
 };
 
-using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect>;
+/// Springs that resist the rate of their length too (Kelvin-Voigt): F = -tau k n (n . (v_i - v_j)) on end i.
+/// A mode of angular frequency w decays at tau w^2 / 2; a cloth that moves or turns as a whole keeps its
+/// motion.
+struct StrainDampingEffect {
+  double time = 1e-3;  ///< tau, s; finite, >= 0. Explicit methods need substeps in proportion to it.
+  static constexpr const char* kName = "strain_damping";
+};
+
+/// Resistance to curvature, with each cloth's own Material::rigidity (plate.h).
+struct PlateBendingEffect {
+  static constexpr const char* kName = "plate_bending";
+};
+
+using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect,
+                                       StrainDampingEffect, PlateBendingEffect>;
 
 // --- Things in the scene ---
 

@@ -11,16 +11,25 @@ enum class Discretization {
               ///< follow from the sheet's stiffness and the cell's shape: all levels approach one sheet
 };
 
+/// Bending rigidities, N m, each finite and >= 0: a sheet bent to the curvatures k_uu and k_vv along its u
+/// and v and to the twist k_uv holds u k_uu^2 / 2 + v k_vv^2 / 2 + twist k_uv^2 joules a square metre. Bent
+/// along the bias it has (u + v + 2 twist) / 4; all three alike bend alike in every direction.
+struct Rigidity {
+  double u = 1e-5, v = 1e-5, twist = 1e-5;
+  bool operator==(const Rigidity&) const = default;
+};
+
 /// What a cloth is made of. With Discretization::paper the three stiffnesses are Eq. 1's spring constants
 /// K(i,j) in N/m, the same at every level. With continuum they are the sheet's own, in N/m (force per width
 /// per strain), and the constants of a level follow from them (springs.h).
 struct Material {
   double density = 0.1;  ///< areal density, kg/m2; finite and > 0
   double structural =
-      5000;              ///< N/m, along warp and weft; >= 0. Higher stretches less and needs more substeps.
-  double shear = 500;    ///< N/m, along the diagonals; >= 0
-  double bending = 5;    ///< N/m, springs to the second neighbour; >= 0
-  double damping = 0.1;  ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
+      5000;                ///< N/m, along warp and weft; >= 0. Higher stretches less and needs more substeps.
+  double shear = 500;      ///< N/m, along the diagonals; >= 0
+  double bending = 5;      ///< N/m, springs to the second neighbour; >= 0
+  double damping = 0.1;    ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
+  Rigidity rigidity = {};  ///< of the effect plate_bending, the same at every level and discretization
   bool operator==(const Material&) const = default;
 };
 

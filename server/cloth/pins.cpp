@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/path.h"
-
 namespace weft {
 namespace {
 
@@ -104,7 +102,7 @@ void Pins<Real>::carry(Particles<Real>& particles, double time) const {
   }
   for (const Fixed& fixed : fixed_) {
     if (!fixed.placed || !fixed.obstacle.moves()) continue;
-    const PlacedShape now = fixed.obstacle.placed((time - begin_) / step_);
+    const PlacedShape now = at(fixed, time);
     for (const Carried& carried : fixed.nodes) {
       set(particles.position, carried.node, now.centre + now.rotation * carried.origin);
     }

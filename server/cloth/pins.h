@@ -4,6 +4,7 @@
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
 #include "cloth/particles.h"
+#include "cloth/path.h"
 
 namespace weft {
 
@@ -23,6 +24,21 @@ class Pins {
   bool begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time, double dt);
   /// Puts the nodes that move where they are at `time`, s, within the step that has begun.
   void carry(Particles<Real>& particles, double time) const;
+  /// Calls visit(node, way) for the nodes that move, with their way from `begin` to `end`, s, in m.
+  template <class Visit>
+  void for_each_way(double begin, double end, Visit visit) const {
+    for (const Path& path : carried_) {
+      const Vec3 way = along_path(path.points, end, path.loops) - along_path(path.points, begin, path.loops);
+      for (const Carried& carried : path.nodes) visit(carried.node, way);
+    }
+    for (const Fixed& fixed : fixed_) {
+      if (!fixed.placed || !fixed.obstacle.moves()) continue;
+      const PlacedShape from = at(fixed, begin), to = at(fixed, end);
+      for (const Carried& carried : fixed.nodes) {
+        visit(carried.node, Vec3(to.centre - from.centre + (to.rotation - from.rotation) * carried.origin));
+      }
+    }
+  }
 
  private:
   struct Carried {
@@ -40,6 +56,11 @@ class Pins {
     std::vector<Carried> nodes;  ///< origin: in the obstacle's own frame
     bool placed = false;
   };
+  /// The obstacle at `time`, s, within the step.
+  PlacedShape at(const Fixed& fixed, double time) const {
+    return fixed.obstacle.placed((time - begin_) / step_);
+  }
+
   std::vector<Path> carried_;
   std::vector<Fixed> fixed_;
   double end_of_motion_ = 0;     ///< when the last path ends, s; infinite if one loops

@@ -155,7 +155,7 @@ ClothReport Simulation<Real>::report(std::size_t cloth) const {
   report.substeps = last_advance_[cloth].substeps;
   report.nodes_in_contact = last_advance_[cloth].nodes_in_contact;
   report.kinetic_energy = kinetic_energy(particles);
-  report.potential_energy = springs.energy(particles.position) + gravitational_energy(particles, gravity_);
+  report.potential_energy = cloths_[cloth].elastic_energy() + gravitational_energy(particles, gravity_);
   report.strain = springs.structural_strain(particles.position);
   return report;
 }

@@ -8,6 +8,7 @@
 #include "cloth/bands.h"
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/spring_kernels.h"
+#include "cloth/kernels/strain_damping_kernels.h"
 
 namespace weft {
 namespace {
@@ -102,7 +103,8 @@ Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiff
 
 template <class Real>
 Springs<Real>::Springs(const Material& material, Discretization discretization, const Vec2& size,
-                       const Grid& grid) {
+                       const Grid& grid, double damping_time)
+    : damping_time_(damping_time) {
   const double hx = size.x() / (grid.cols - 1);
   const double hy = size.y() / (grid.rows - 1);
   const double diagonal = std::hypot(hx, hy);
@@ -130,6 +132,7 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
     }
   }
   work_.assign(kernels::spring_work_size(grid), Real(0));
+  if (damping_time_ > 0) damping_work_.assign(kernels::strain_damping_work_size(grid), Real(0));
 }
 
 template <class Real>
@@ -159,11 +162,24 @@ void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Re
 }
 
 template <class Real>
+void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Components<const Real> change,
+                                double time, VectorField<Real>& force) const {
+  if (damping_time_ == 0 || families_.empty()) return;
+  const Grid& grid = position.grid();
+  kernels::add_strain_damping(lattice(grid), grid, kernels::components(position), change,
+                              static_cast<Real>(damping_time_ / time), kernels::components(force),
+                              damping_work_.data());
+}
+
+template <class Real>
 void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> position,
-                              const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const {
+                              const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links,
+                              double h) const {
   const kernels::SpringLattice<Real> springs = lattice(grid);
-  Bands(grid).for_each(
-      [&](kernels::RowRange rows, int) { kernels::linearise_springs(springs, grid, position, links, rows); });
+  const Real axial = static_cast<Real>(1 + damping_time_ / h);
+  Bands(grid).for_each([&](kernels::RowRange rows, int) {
+    kernels::linearise_springs(springs, grid, position, axial, links, rows);
+  });
 }
 
 template <class Real>

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "cloth/kernels/link_kernels.h"
@@ -22,7 +23,8 @@ struct StructuralStrain {
   double mean = 0;  ///< mean of the same
 };
 
-/// The springs of one cloth at one level. Families of zero stiffness are left out: they cost nothing.
+/// The springs of one cloth at one level. Families of zero stiffness are left out: they cost nothing. With a
+/// damping time tau, s, each spring resists the rate of its length as well (StrainDampingEffect).
 template <class Real>
 class Springs {
  public:
@@ -30,15 +32,23 @@ class Springs {
   /// `size` is the cloth's width and height, m. Continuum constants for cells hx by hy: structural Y hy/hx
   /// along u, Y hx/hy along v; shear G d^2 / (2 hx hy) with d the diagonal; bending as structural at twice
   /// the distance, B hy/(2 hx) and B hx/(2 hy).
-  Springs(const Material& material, Discretization discretization, const Vec2& size, const Grid& grid);
+  Springs(const Material& material, Discretization discretization, const Vec2& size, const Grid& grid,
+          double damping_time = 0);
 
   const std::vector<SpringFamily>& families() const { return families_; }
 
   /// Adds Eq. 1's force on every node, N.
   void add_forces(const VectorField<Real>& position, VectorField<Real>& force) const;
-  /// Linearises every spring at `position`, given with its rows of zeros (kernels/link_kernels.h).
+  double damping_time() const { return damping_time_; }  ///< s; 0: undamped
+  /// Adds the damping of nodes that moved by `change` in `time` seconds, N: on end i of every spring
+  /// -tau k n (n . (change_i - change_j)) / time. Nothing where undamped.
+  void add_damping(const VectorField<Real>& position, kernels::Components<const Real> change, double time,
+                   VectorField<Real>& force) const;
+  /// Linearises every spring at `position`, given with its rows of zeros (kernels/link_kernels.h); of a step
+  /// of `h` seconds, in which damping stiffens a spring along itself by 1 + tau / h.
   void linearise(const Grid& grid, kernels::Components<const Real> position,
-                 const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links) const;
+                 const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links,
+                 double h = std::numeric_limits<double>::infinity()) const;
   /// How far the springs' energy after `change` is from what linearise() at `position` promised; both fields
   /// with their rows of zeros.
   kernels::SpringModelError model_error(const Grid& grid, kernels::Components<const Real> position,
@@ -58,10 +68,12 @@ class Springs {
   kernels::SpringLattice<Real> lattice(const Grid& grid) const;
 
   std::vector<SpringFamily> families_;
+  double damping_time_ = 0;
   /// Stiffness by column of each family's first end, a row for each of the six.
   std::vector<Real, AlignedAllocator<Real>> columns_;
   /// The force kernel's work rows: no state, but one owner at a time.
   mutable std::vector<Real, AlignedAllocator<Real>> work_;
+  mutable std::vector<Real, AlignedAllocator<Real>> damping_work_;  ///< empty where undamped
 };
 
 extern template class Springs<float>;

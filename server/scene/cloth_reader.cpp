@@ -19,6 +19,19 @@ const Fabric* read_fabric(const json& value, const std::string& path, Report& re
   return fabric;
 }
 
+/// One number for all three, or [u, v, twist].
+void read_rigidity(Object& material, Rigidity& rigidity) {
+  constexpr Range kRigidity{0, 1e4, "N m"};
+  const json* value = material.find("rigidity");
+  Vec3 read(rigidity.u, rigidity.v, rigidity.twist);
+  if (value && value->is_array()) {
+    material.vector("rigidity", read, kRigidity);
+  } else if (double all = 0; material.number("rigidity", all, kRigidity)) {
+    read.setConstant(all);
+  }
+  rigidity = {read[0], read[1], read[2]};
+}
+
 /// A fabric's name, or raw values; with "fabric" they change that fabric's.
 Material read_material(const json& value, const std::string& path, Report& report) {
   constexpr Range kDensity{1e-4, 1e4, "kg/m2"};
@@ -38,6 +51,7 @@ Material read_material(const json& value, const std::string& path, Report& repor
   object.number("shear", material.shear, kStiffness);
   object.number("bending", material.bending, kStiffness);
   object.number("damping", material.damping, kDamping);
+  read_rigidity(object, material.rigidity);
   return material;
 }
 

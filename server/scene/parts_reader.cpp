@@ -43,10 +43,12 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kFactor{0, 1e6, "N at 1 m/s"};
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
   constexpr Range kCoefficient{0, 100};
+  constexpr Range kDampingTime{0, 10, "s"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
-                                 AerodynamicsEffect::kName})) {
+  switch (object.choice(
+      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
+               StrainDampingEffect::kName, PlateBendingEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -68,6 +70,13 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
       if (object.number("lift", lift, kCoefficient)) aerodynamics.lift = lift;
       return aerodynamics;
     }
+    case 4: {
+      StrainDampingEffect damping;
+      object.number("time", damping.time, kDampingTime);
+      return damping;
+    }
+    case 5:
+      return PlateBendingEffect{};
     default:
       object.ignore_rest();
       return std::nullopt;

@@ -20,17 +20,19 @@ EFFECTS = {
     "gravity": ({}, ["weft::Gravity<"]),
     "damping": ({}, ["weft::Damping<"]),
     "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
-    "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_pressure.*clone"]),
+    "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
+    "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
+    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|relax)_plate.*clone"]),
 }
 
 
-def functions_entered(effects, folder, colliders=()):
+def functions_entered(effects, folder, colliders=(), wind=None):
     """Names of all functions entered while a small hung sheet is stepped 12 times with these effects."""
     scene = {"title": "hung", "effects": effects, "integrator": {"type": "bdf2"},
              "colliders": list(colliders),
              "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4}}]}
     if any(effect["type"] in ("paper_wind", "aerodynamics") for effect in effects):
-        scene["wind"] = {"speed": 3}
+        scene["wind"] = {"speed": 3, **(wind or {})}
     file, out = folder / "scene.json", folder / "callgrind.out"
     file.write_text(json.dumps(scene))
     subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={out}", WEFT, "run", str(file), "--frames", "12",
@@ -55,6 +57,19 @@ class AbsentEffects(unittest.TestCase):
                         seen = sorted(function for function in entered if re.search(mark, function))
                         with self.subTest(effect=name, mark=mark, present=present):
                             self.assertEqual(bool(seen), name in present, seen)
+
+    def test_wind_that_varies_is_entered_only_where_it_does(self):
+        kinds = {"gusts": ({"intensity": 0.2, "time_scale": 3}, "weft::GustSeries::"),
+                 "turbulence": ({"intensity": 0.2, "length_scale": 0.5}, "weft::Eddies::"), None: (None, "weft::NodeAir::")}
+        with tempfile.TemporaryDirectory() as folder:
+            for present in kinds:
+                entered = functions_entered([{"type": "aerodynamics"}], pathlib.Path(folder),
+                                            wind={present: kinds[present][0]} if present else None)
+                for kind, (_, mark) in kinds.items():
+                    seen = sorted(function for function in entered if mark in function)
+                    with self.subTest(kind=kind, present=present):
+                        # The air at each node is needed for turbulence alone.
+                        self.assertEqual(bool(seen), kind == present if kind else present == "turbulence", seen)
 
     def test_contact_is_entered_only_where_there_are_colliders(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -37,17 +37,19 @@ void read_nodes(const Cloth<float>& cloth, const std::vector<Solid>& solids, Rea
   }
 }
 
-/// Springs that an implicit step softens (softened_springs.h) give back no more than they then hold.
-double spring_energy(const Simulation<float>& simulation, const Cloth<float>& cloth) {
+/// Of springs and plate. Springs that an implicit step softens (softened_springs.h) give back no more than
+/// they then hold.
+double elastic_energy(const Simulation<float>& simulation, const Cloth<float>& cloth) {
   const SimulationDescription& scene = simulation.description();
   const auto* backward_euler = std::get_if<BackwardEulerDescription>(&scene.integrator);
   const auto* bdf2 = std::get_if<Bdf2Description>(&scene.integrator);
   const Particles<float>& state = cloth.particles();
-  if (backward_euler == nullptr && bdf2 == nullptr) return cloth.springs().energy(state.position);
+  const double whole = cloth.elastic_energy();
+  if (backward_euler == nullptr && bdf2 == nullptr) return whole;
   const int substeps = bdf2 != nullptr ? bdf2->substeps : backward_euler->substeps;
   const auto soft =
       softened_springs(cloth.springs(), cloth.description(), state.mass, scene.time_step / substeps);
-  return (soft ? *soft : cloth.springs()).energy(state.position);
+  return soft ? whole - cloth.springs().energy(state.position) + soft->energy(state.position) : whole;
 }
 
 bool falls(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
@@ -60,7 +62,7 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   for (const Cloth<float>& cloth : simulation.cloths()) {
     const Particles<float>& state = cloth.particles();
     reading.energy += kinetic_energy(state) + gravitational_energy(state, simulation.gravity());
-    if (springs_count) reading.energy += spring_energy(simulation, cloth);
+    if (springs_count) reading.energy += elastic_energy(simulation, cloth);
     read_springs(cloth, reading);
     read_nodes(cloth, simulation.colliders().solids(), reading);
   }
@@ -84,7 +86,7 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
     rounding += stiffness * made.size.x() * made.size.y() * kRoundingStrain * kRoundingStrain / 2;
     // Held by an edge it falls by its height, and back up on the other side.
     const double fall = cloth.description().size.norm();
-    moving += kinetic_energy(state) + cloth.springs().energy(state.position) +
+    moving += kinetic_energy(state) + cloth.elastic_energy() +
               cloth.total_mass() * simulation.gravity().norm() * fall;
   }
   for (const Ball& each : simulation.colliders().balls()) {

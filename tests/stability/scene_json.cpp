@@ -22,7 +22,8 @@ json json_of(const ClothDescription& cloth) {
         {"structural", material.structural},
         {"shear", material.shear},
         {"bending", material.bending},
-        {"damping", material.damping}}},
+        {"damping", material.damping},
+        {"rigidity", {material.rigidity.u, material.rigidity.v, material.rigidity.twist}}}},
       {"discretization", cloth.discretization == Discretization::paper ? "paper" : "continuum"},
       {"pins", json::array()}};
   if (cloth.nodes.empty()) {
@@ -78,6 +79,8 @@ struct EffectWriter {
   json operator()(const AerodynamicsEffect& e) const {
     return {{"air_density", e.air_density}, {"drag", e.drag}, {"lift", e.lift_or_drag()}};
   }
+  json operator()(const StrainDampingEffect& e) const { return {{"time", e.time}}; }
+  json operator()(const PlateBendingEffect&) const { return json::object(); }
 };
 
 struct IntegratorWriter {

@@ -16,6 +16,9 @@ struct EffectMaker {
   Made operator()(const DampingEffect& e) const { return std::make_unique<Damping<Real>>(e); }
   Made operator()(const PaperWindEffect& e) const { return std::make_unique<PaperWind<Real>>(e); }
   Made operator()(const AerodynamicsEffect& e) const { return std::make_unique<Aerodynamics<Real>>(e); }
+  // The sheet's own affair: Springs and Plate, which each integrator takes in its own way.
+  Made operator()(const StrainDampingEffect&) const { return nullptr; }
+  Made operator()(const PlateBendingEffect&) const { return nullptr; }
 };
 
 }  // namespace
@@ -34,7 +37,8 @@ std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<Effect
   std::vector<std::unique_ptr<Effect<Real>>> effects;
   effects.reserve(descriptions.size());
   for (const EffectDescription& description : descriptions) {
-    effects.push_back(std::visit(EffectMaker<Real>{}, description));
+    auto effect = std::visit(EffectMaker<Real>{}, description);
+    if (effect) effects.push_back(std::move(effect));
   }
   return effects;
 }

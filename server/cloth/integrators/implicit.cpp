@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cloth/clock.h"
+#include "cloth/solver/node_vector.h"
 
 namespace weft {
 namespace {
@@ -52,8 +53,8 @@ bool needs_blocks(const Forces<Real>& forces) {
 }  // namespace
 
 template <class Real>
-Implicit<Real>::State::State(const Grid& grid, bool has_bending)
-    : system(grid, has_bending),
+Implicit<Real>::State::State(const Grid& grid, bool has_bending, const Plate<Real>* plate)
+    : system(grid, has_bending, plate),
       solver(grid),
       numbers(grid, 2),
       vectors(grid, 24),
@@ -112,8 +113,9 @@ template <class Real>
 void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
-    state_.emplace(grid, forces.springs->has_bending());
+    state_.emplace(grid, forces.springs->has_bending(), forces.plate);
     state_->slow = kSlow * extent(forces.springs->families(), grid);
+    if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
   if (state_->h != h) {
     state_->h = h;
@@ -128,6 +130,7 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
 template <class Real>
 void Implicit<Real>::begin_substep(const Particles<Real>& particles, double h) {
   State& s = *state_;
+  s.h = h;
   const std::size_t count = particles.grid().size();
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
   s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
@@ -155,8 +158,9 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   auto& finest = s.system.finest();
 
   copy<Real>(kernels::components(particles.position), s.position, count);
-  forces.springs->linearise(grid, s.position, finest.matrix.links);
+  forces.springs->linearise(grid, s.position, finest.matrix.links, s.h);
   forces.sum(particles, s.force);
+  if (forces.springs->damping_time() > 0) add_damping(particles, forces);
   std::fill_n(finest.diagonal(), count, Real(0));
   const bool blocks = !s.contacts.empty() || needs_blocks(forces);
   finest.use_blocks(blocks);
@@ -178,6 +182,17 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
                       forces.springs->node_stiffness(), s.move);
   }
   s.system.prepare();
+}
+
+template <class Real>
+void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<Real>& forces) {
+  State& s = *state_;
+  const kernels::Components<Real> way = kernels::components(s.way);
+  copy<Real>(s.move, way, particles.grid().size());
+  const double end = forces.context.time;
+  forces.for_each_pin_way(end - s.h, end,
+                          [&](std::size_t node, const Vec3& moved) { add<Real>(way, node, moved); });
+  forces.springs->add_damping(particles.position, way, s.h, s.force);
 }
 
 template <class Real>

@@ -22,6 +22,9 @@ namespace weft {
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
+/// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
+/// Euler's rate, with BDF2 too: it takes energy from any motion).
+///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
 /// motion that the formula extrapolates.
@@ -38,12 +41,13 @@ class Implicit final : public Integrator<Real> {
  private:
   /// All that lives on one grid.
   struct State {
-    State(const Grid& grid, bool has_bending);
+    State(const Grid& grid, bool has_bending, const Plate<Real>* plate);
 
     Multigrid<Real> system;
     ConjugateGradients<Real> solver;
     NodeArrays<Real> numbers, vectors;
     VectorField<Real> start, start_velocity, force;
+    VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where springs are undamped
     kernels::BackwardStep<Real> step;
     Real* second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
     kernels::Components<Real> last_move, last_velocity;
@@ -63,6 +67,8 @@ class Implicit final : public Integrator<Real> {
   void begin_substep(const Particles<Real>& particles, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// Adds the springs' damping, by the nodes' moves so far, to the forces.
+  void add_damping(const Particles<Real>& particles, const Forces<Real>& forces);
   struct NewtonReport {
     int linear_iterations = 0;
     double brought_in = 0;  ///< energy, J; below 0: given off

@@ -29,6 +29,7 @@ template <class Real>
 void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& force) const {
   force.fill(Real(0));
   springs->add_forces(particles.position, force);
+  if (plate != nullptr) plate->add_forces(particles.position, force);
   for (const auto& effect : *effects) effect->add_forces(particles, context, force);
 }
 

@@ -4,6 +4,7 @@
 #include "cloth/contact/contact.h"
 #include "cloth/effects/effect.h"
 #include "cloth/pins.h"
+#include "cloth/plate.h"
 #include "cloth/springs.h"
 
 namespace weft {
@@ -14,14 +15,22 @@ struct Forces {
   const Springs<Real>* springs = nullptr;
   const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
   EffectContext context;
-  const Pins<Real>* pins = nullptr;  ///< if any of them moves
+  const Pins<Real>* pins = nullptr;    ///< if any of them moves
+  const Plate<Real>* plate = nullptr;  ///< if the scene bends plates
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {
     if (pins != nullptr) pins->carry(particles, time);
   }
+  /// Calls visit(node, way) for the nodes of moving pins, which carry_pins leaves without a velocity: their
+  /// way from `begin` to `end`, s, in m.
+  template <class Visit>
+  void for_each_pin_way(double begin, double end, Visit visit) const {
+    if (pins != nullptr) pins->for_each_way(begin, end, visit);
+  }
 
-  /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N.
+  /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N. The springs' damping, which
+  /// each method takes in its own way, is not in it.
   void sum(const Particles<Real>& particles, VectorField<Real>& force) const;
   /// The scene's effects alone; `force` is overwritten, N.
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;

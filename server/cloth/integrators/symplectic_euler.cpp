@@ -5,6 +5,7 @@
 
 #include "cloth/clock.h"
 #include "cloth/kernels/node_kernels.h"
+#include "cloth/solver/node_vector.h"
 
 namespace weft {
 namespace {
@@ -44,8 +45,9 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
                                              double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
-  const double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
-  const double rate = forces.max_damping_rate(particles);
+  double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
+  const double rate = forces.max_damping_rate(particles) + forces.springs->damping_time() * squared_frequency;
+  if (forces.plate != nullptr) squared_frequency += forces.plate->max_squared_frequency(particles.mass);
   report.substeps = description_.substeps > 0
                         ? description_.substeps
                         : stable_substeps(squared_frequency, rate, dt, description_.safety);
@@ -61,6 +63,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     forces.context.time = time + s * h;
     forces.carry_pins(particles, time + (s + 1) * h);
     forces.sum(particles, force_);
+    if (forces.springs->damping_time() > 0) add_damping(particles, forces, h);
     update(particles, force_, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
@@ -69,6 +72,15 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;
+}
+
+template <class Real>
+void SymplecticEuler<Real>::add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h) {
+  const kernels::Components<Real> velocity = kernels::components(particles.velocity);
+  // The update takes it from them again.
+  forces.for_each_pin_way(forces.context.time, forces.context.time + h,
+                          [&](std::size_t node, const Vec3& way) { add<Real>(velocity, node, way / h); });
+  forces.springs->add_damping(particles.position, velocity, 1, force_);
 }
 
 template class SymplecticEuler<float>;

@@ -20,6 +20,9 @@ class SymplecticEuler final : public Integrator<Real> {
                         std::vector<Solid>& solids, double time, double dt) override;
 
  private:
+  /// What the springs' damping does in a substep of h seconds that begins at forces.context.time.
+  void add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h);
+
   SymplecticEulerDescription description_;
   VectorField<Real> force_;
 };

@@ -30,7 +30,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
   AdvanceReport report;
   report.substeps = description_.substeps;
   const double h = dt / report.substeps;
-  prepare(particles, forces.springs->families(), h);
+  prepare(particles, forces, h);
   // Explicit drag reverses velocities where its rate exceeds 1/h: forces are then scaled so that it stops
   // them at most, which leaves every terminal velocity as it is.
   const double rate = forces.max_damping_rate(particles);
@@ -55,8 +55,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
 }
 
 template <class Real>
-void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<SpringFamily>& families,
-                         double h) {
+void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) {
     force_ = rounded_off_ = VectorField<Real>(grid);
@@ -65,6 +64,13 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<Spr
     row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
+  prepare_springs(*forces.springs, grid, h);
+  if (forces.plate != nullptr) prepare_plate(*forces.plate, h);
+}
+
+template <class Real>
+void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid, double h) {
+  const std::vector<SpringFamily>& families = springs.families();
   const std::size_t lanes = layout_.stride;
   stiffness_.assign(families.size() * lanes, Real(0));
   springs_.clear();
@@ -79,8 +85,31 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const std::vector<Spr
           static_cast<Real>(share * family->stiffness * h * h);
     }
     springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
-                        static_cast<Real>(family->border_share), stiffness});
+                        static_cast<Real>(family->border_share), stiffness,
+                        static_cast<Real>(springs.damping_time() / h)});
   }
+}
+
+template <class Real>
+void Xpbd<Real>::prepare_plate(const Plate<Real>& plate, double h) {
+  plate_.assign(kernels::plate_lanes_size(layout_), Real(0));
+  kernels::set_plate_lanes(layout_, plate.grid(), plate.stencils(), static_cast<Real>(h * h), plate_.data());
+}
+
+template <class Real>
+void Xpbd<Real>::take_back_pins(const Forces<Real>& forces, double share, double h) {
+  const auto stride = static_cast<std::size_t>(force_.grid().stride);
+  const double begin = forces.context.time;
+  forces.for_each_pin_way(begin, begin + h, [&](std::size_t node, const Vec3& way) {
+    Real* lane = sheet_.data() + node / stride * layout_.row_size() +
+                 static_cast<std::size_t>(layout_.lane(static_cast<int>(node % stride)));
+    for (const int component : {0, 1, 2}) {
+      const Real part = static_cast<Real>(share * way[component]);
+      lane[0] -= part;
+      lane[kernels::QuarterRows::kMove * layout_.stride] += part;
+      lane += layout_.stride;
+    }
+  });
 }
 
 template <class Real>
@@ -94,7 +123,11 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
                                        kernels::components(rounded_off_)};
   kernels::predict(layout_, grid, nodes, static_cast<Real>(force_share * h), static_cast<Real>(h),
                    sheet_.data(), row_.data());
+  const bool damped = forces.springs->damping_time() > 0;
+  if (damped) take_back_pins(forces, 1, h);
+  if (forces.plate != nullptr) kernels::project_plate(layout_, plate_.data(), sheet_.data());
   for (const auto& family : springs_) kernels::project(layout_, family, sheet_.data());
+  if (damped) take_back_pins(forces, -1, h);
   kernels::take_over(layout_, grid, sheet_.data(), static_cast<Real>(h), nodes, row_.data());
 }
 

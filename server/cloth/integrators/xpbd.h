@@ -1,6 +1,6 @@
 #pragma once
 #include "cloth/integrators/integrator.h"
-#include "cloth/kernels/xpbd_kernels.h"
+#include "cloth/kernels/plate_projection_kernels.h"
 
 namespace weft {
 
@@ -12,6 +12,9 @@ namespace weft {
 /// Bounded for any stiffness and substep. What more substeps buy is accuracy: a spring that carries a load F
 /// between nodes of masses m_i, m_j is left up to F h^2 (1/m_i + 1/m_j) longer than F/k says. Over the N
 /// cells of a sheet hung by its edge that adds up to about g h^2 N^2 / 2.
+///
+/// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
+/// plate's stiffest modes are much faster than the substeps.
 ///
 /// The families are projected in a fixed order, structural springs last. Measured: fixed orders all come to
 /// rest and differ little; orders that alternate or are shuffled from substep to substep shake the cloth for
@@ -27,7 +30,11 @@ class Xpbd final : public Integrator<Real> {
 
  private:
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
-  void prepare(const Particles<Real>& particles, const std::vector<SpringFamily>& families, double h);
+  void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
+  void prepare_springs(const Springs<Real>& springs, const Grid& grid, double h);
+  void prepare_plate(const Plate<Real>& plate, double h);
+  /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
+  void take_back_pins(const Forces<Real>& forces, double share, double h);
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
 
   XpbdDescription description_;
@@ -37,6 +44,7 @@ class Xpbd final : public Integrator<Real> {
   std::vector<Real, AlignedAllocator<Real>> stiffness_;  ///< a row of lanes for each family
   std::vector<Real, AlignedAllocator<Real>> row_;        ///< one row in the particles' own order
   std::vector<kernels::XpbdSprings<Real>> springs_;
+  std::vector<Real, AlignedAllocator<Real>> plate_;  ///< its stiffnesses in that layout; empty without one
 };
 
 extern template class Xpbd<float>;

@@ -12,7 +12,7 @@ namespace {
 template <class Real>
 [[gnu::always_inline]] inline void linearise_row(const SpringColumns<Real>& springs, Real share,
                                                  const Components<const Real>& position, std::ptrdiff_t first,
-                                                 std::ptrdiff_t other, int count,
+                                                 std::ptrdiff_t other, int count, Real axial,
                                                  const SpringLinks<Real>& links) {
   const Real* __restrict stiffness = springs.stiffness;
   const Real rest_length = springs.rest_length;
@@ -32,7 +32,7 @@ template <class Real>
     const Real stretch = length - rest_length;
     // max(0, stretch) without a branch, which the compiler would keep.
     const Real sideways = k * ((stretch + std::abs(stretch)) / 2) / length;
-    const Real along = std::sqrt(k - sideways) / length;
+    const Real along = std::sqrt(axial * k - sideways) / length;
     a[c] = sideways;
     mx[c] = along * dx;
     my[c] = along * dy;
@@ -42,7 +42,7 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline void linearise_any(const SpringLattice<Real>& springs, const Grid& grid,
-                                                 const Components<const Real>& position,
+                                                 const Components<const Real>& position, Real axial,
                                                  const LinkFamilies<SpringLinks<Real>>& links,
                                                  RowRange rows) {
   const std::ptrdiff_t stride = grid.stride;
@@ -53,7 +53,7 @@ template <class Real>
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
     const auto row = [&](const SpringColumns<Real>& family, Real row_share, std::ptrdiff_t other,
                          const SpringLinks<Real>& out) WEFT_INLINE_LAMBDA {
-      linearise_row(family, row_share, position, first, other, count, out);
+      linearise_row(family, row_share, position, first, other, count, axial, out);
     };
     row(springs.along_u, share, 1, links.along_u);
     if (links.has_bending) {
@@ -233,9 +233,9 @@ template <class Real>
 #define WEFT_IMPLICIT_KERNELS(Real)                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid,             \
-                                           Components<const Real> position,                                  \
+                                           Components<const Real> position, Real axial,                      \
                                            const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {    \
-    linearise_any<Real>(springs, grid, position, links, rows);                                               \
+    linearise_any<Real>(springs, grid, position, axial, links, rows);                                        \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void begin_backward_step(                                                                \

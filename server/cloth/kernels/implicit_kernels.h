@@ -7,10 +7,10 @@ namespace weft::kernels {
 
 /// Linearises every spring that begins in the rows at the given positions: K = a I + (k - a) n n^T with a = k
 /// max(0, 1 - l0/l), the part of its stiffness that is never negative (a compressed spring's sideways push is
-/// left out). `position` has its rows of zeros (link_kernels.h).
+/// left out), and k n n^T taken `axial` times, at least 1. `position` has its rows of zeros (link_kernels.h).
 template <class Real>
 void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,
-                       const LinkFamilies<SpringLinks<Real>>& links, RowRange rows);
+                       Real axial, const LinkFamilies<SpringLinks<Real>>& links, RowRange rows);
 
 /// A step of h seconds by a backward differentiation formula, node by node: with d the node's move in the
 /// step, its new velocity is rate (d - offset), and without forces it would move by `free_move`.

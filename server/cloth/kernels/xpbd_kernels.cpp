@@ -15,9 +15,11 @@ constexpr int kGroup = 8;
 constexpr int round_up(int n, int to) { return (n + to - 1) / to * to; }
 
 /// Projects the springs from lane a[i] to lane b[i], i < count; no lane is met twice.
-template <class Real>
+template <class Real, bool kDamped>
 [[gnu::always_inline]] inline void project_run(Real* a, Real* b, const Real* __restrict stiffness, Real share,
-                                               Real rest_length, std::size_t stride, int count) {
+                                               const XpbdSprings<Real>& springs, std::size_t stride,
+                                               int count) {
+  const Real rest_length = springs.rest_length, damping = springs.damping;
   const Real *ax = a, *ay = a + stride, *az = a + 2 * stride;
   const Real *bx = b, *by = b + stride, *bz = b + 2 * stride;
   Real *ux = a + QuarterRows::kMove * stride, *uy = ux + stride, *uz = uy + stride;
@@ -35,7 +37,12 @@ template <class Real>
     const Real squared = dx * dx + dy * dy + dz * dz;
     const Real length = std::sqrt(squared > smallest ? squared : smallest);
     const Real k = share * stiffness[i];
-    const Real factor = k * (rest_length - length) / (length * (Real(1) + k * (ma + mb)));
+    Real shorter = rest_length - length, weight = ma + mb;
+    if constexpr (kDamped) {
+      shorter -= damping * (dx * (xa - xb) + dy * (ya - yb) + dz * (za - zb)) / length;
+      weight *= Real(1) + damping;
+    }
+    const Real factor = k * shorter / (length * (Real(1) + k * weight));
     const Real fa = factor * ma, fb = factor * mb;
     ux[i] = xa + fa * dx;
     uy[i] = ya + fa * dy;
@@ -48,7 +55,7 @@ template <class Real>
 
 /// Springs within a row: two quarters of the columns begin a spring of the first colour, two one of the
 /// second.
-template <class Real>
+template <class Real, bool kDamped>
 [[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
                                                        const XpbdSprings<Real>& springs, Real* sheet) {
   for (int r = 0; r < layout.rows; ++r) {
@@ -57,14 +64,14 @@ template <class Real>
     for (int i = 0; i < 4; ++i) {
       const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
       const int left = layout.lane(col), right = layout.lane(col + springs.cols);
-      project_run(row + left, row + right, springs.stiffness + left, share, springs.rest_length,
-                  layout.stride, layout.width);
+      project_run<Real, kDamped>(row + left, row + right, springs.stiffness + left, share, springs,
+                                 layout.stride, layout.width);
     }
   }
 }
 
 /// Springs between rows: a row begins springs of one colour, the row at their other end of the other.
-template <class Real>
+template <class Real, bool kDamped>
 [[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
                                                         const XpbdSprings<Real>& springs, Real* sheet) {
   const int across = springs.cols < 0 ? -springs.cols : springs.cols;
@@ -75,26 +82,36 @@ template <class Real>
       Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
       if (springs.cols < 0) std::swap(left, right);
       if (across == 0) {
-        project_run(left, right, springs.stiffness, Real(1), springs.rest_length, layout.stride,
-                    round_up(4 * layout.width + 1, kGroup));
+        project_run<Real, kDamped>(left, right, springs.stiffness, Real(1), springs, layout.stride,
+                                   round_up(4 * layout.width + 1, kGroup));
       } else {
         for (int col = 0; col < 4; ++col) {
           const int from = layout.lane(col), to = layout.lane(col + across);
-          project_run(left + from, right + to, springs.stiffness + from, Real(1), springs.rest_length,
-                      layout.stride, layout.width);
+          project_run<Real, kDamped>(left + from, right + to, springs.stiffness + from, Real(1), springs,
+                                     layout.stride, layout.width);
         }
       }
     }
   }
 }
 
+template <class Real, bool kDamped>
+[[gnu::always_inline]] inline void project_family(const QuarterRows& layout, const XpbdSprings<Real>& springs,
+                                                  Real* sheet) {
+  if (springs.rows == 0) {
+    project_within_rows<Real, kDamped>(layout, springs, sheet);
+  } else {
+    project_between_rows<Real, kDamped>(layout, springs, sheet);
+  }
+}
+
 template <class Real>
 [[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
                                                Real* sheet) {
-  if (springs.rows == 0) {
-    project_within_rows(layout, springs, sheet);
+  if (springs.damping > Real(0)) {
+    project_family<Real, true>(layout, springs, sheet);
   } else {
-    project_between_rows(layout, springs, sheet);
+    project_family<Real, false>(layout, springs, sheet);
   }
 }
 

@@ -30,6 +30,7 @@ struct XpbdSprings {
   Real rest_length = 0;             ///< m
   Real border_row_share = 0;        ///< of the stiffness, for springs that lie in the first or last row
   const Real* stiffness = nullptr;  ///< k h^2, kg, at the lane of the left end; 0 where there is no spring
+  Real damping = 0;                 ///< gamma = tau / h, if the springs resist the rate of their length too
 };
 
 /// The nodes as the rest of the program has them.
@@ -56,7 +57,8 @@ void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double
 
 /// One sweep over the family's springs: each is projected once, in two colours. XPBD with compliance 1/k and
 /// a multiplier that starts from zero moves end i along the spring by
-/// w_i (l0 - l) / (w_i + w_j + 1 / (k h^2)); coincident ends stay where they are.
+/// w_i (l0 - l - gamma dl) / ((1 + gamma) (w_i + w_j) + 1 / (k h^2)), dl being how much longer the substep's
+/// moves have made the spring (Macklin et al. 2016, Eq. 26); coincident ends stay where they are.
 void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 

@@ -37,6 +37,21 @@ struct CoarseSolver<Real>::Impl {
     add(two, one, coupling);
   }
 
+  /// The plate's stencils; fixed nodes keep their place as above.
+  void add_plate(const Plate<Real>& plate, const Matrix& m) {
+    plate.for_each_stencil([&](double stiffness, const auto& nodes) {
+      for (const auto& one : nodes) {
+        for (const auto& two : nodes) {
+          const bool both = m.free[grid.index(one.row, one.col)] > Real(0) &&
+                            m.free[grid.index(two.row, two.col)] > Real(0);
+          const double number = both ? stiffness * one.weight * two.weight : 0.0;
+          const int row = unknown(one.row, one.col), col = unknown(two.row, two.col);
+          for (int i = 0; i < 3; ++i) entries.emplace_back(row + i, col + i, number);
+        }
+      }
+    });
+  }
+
   static Eigen::Matrix3d block_at(const kernels::Blocks<Real>& b, std::size_t i) {
     const auto xy = double(b.xy[i]), xz = double(b.xz[i]), yz = double(b.yz[i]);
     return Eigen::Matrix3d{{double(b.xx[i]), xy, xz}, {xy, double(b.yy[i]), yz}, {xz, yz, double(b.zz[i])}};
@@ -57,7 +72,7 @@ template <class Real>
 CoarseSolver<Real>& CoarseSolver<Real>::operator=(CoarseSolver&&) noexcept = default;
 
 template <class Real>
-void CoarseSolver<Real>::factorise(const Matrix& m) {
+void CoarseSolver<Real>::factorise(const Matrix& m, const Plate<Real>* plate) {
   Impl& s = *impl_;
   s.entries.clear();
   for (int r = 0; r < s.grid.rows; ++r) {
@@ -73,6 +88,7 @@ void CoarseSolver<Real>::factorise(const Matrix& m) {
       s.add_link(m.links.rising, m, r, c, 1, -1);
     }
   }
+  if (plate != nullptr) s.add_plate(*plate, m);
   s.matrix.setFromTriplets(s.entries.begin(), s.entries.end());
   if (!s.analysed) s.factors.analyzePattern(s.matrix);
   s.analysed = true;

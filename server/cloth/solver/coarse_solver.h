@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cloth/kernels/link_kernels.h"
+#include "cloth/plate.h"
 
 namespace weft {
 
@@ -17,8 +18,8 @@ class CoarseSolver {
   CoarseSolver(CoarseSolver&&) noexcept;
   CoarseSolver& operator=(CoarseSolver&&) noexcept;
 
-  /// Takes up the matrix's numbers.
-  void factorise(const Matrix& matrix);
+  /// Takes up the matrix's numbers, and the plate's if there is one: always or never.
+  void factorise(const Matrix& matrix, const Plate<Real>* plate);
   /// x = A^-1 b on the free nodes, 0 on the others.
   void solve(kernels::Components<const Real> b, kernels::Components<Real> x);
 

@@ -1,5 +1,7 @@
 #include "cloth/solver/multigrid.h"
 
+#include <algorithm>
+
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/transfer_kernels.h"
 
@@ -28,13 +30,14 @@ Grid coarser(const Grid& grid) { return Grid::with_nodes((grid.rows + 1) / 2, (g
 }  // namespace
 
 template <class Real, class Links>
-GridLevel<Real, Links>::GridLevel(const Grid& grid, bool has_bending)
+GridLevel<Real, Links>::GridLevel(const Grid& grid, bool has_bending, const Plate<Real>* bent)
     : bands(grid),
-      numbers_(grid, 2),
+      numbers_(grid, bent != nullptr ? 3 : 2),
       links_(grid, (has_bending ? 6 : 4) * static_cast<int>(sizeof(Links) / sizeof(Real*))),
       inverse_(grid, 6),
       vectors_(grid, 9) {
   matrix.grid = grid;
+  if (bent != nullptr) plate = *bent;
   kernels::LinkFamilies<Links>& families = matrix.links;
   int index = 0;
   for (Links* family : {&families.along_u, &families.along_v, &families.falling, &families.rising}) {
@@ -64,17 +67,36 @@ void GridLevel<Real, Links>::use_blocks(bool use) {
   matrix.has_blocks = use;
 }
 
+template <class Real, class Links>
+kernels::LinkMatrix<Real, Links> GridLevel<Real, Links>::smoothed() {
+  kernels::LinkMatrix<Real, Links> seen = matrix;
+  if (plate) {
+    Real* sum = numbers_[2];
+    std::transform(diagonal(), diagonal() + matrix.grid.size(), plate->smoother().row(0), sum, std::plus<>());
+    seen.diagonal = sum;
+  }
+  return seen;
+}
+
 template struct GridLevel<float, kernels::SpringLinks<float>>;
 template struct GridLevel<double, kernels::SpringLinks<double>>;
 
 template <class Real>
-Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending)
-    : finest_(finest, has_bending),
-      work_size_(kernels::link_work_size(finest)),
+std::size_t Multigrid<Real>::work_size(const Grid& finest, const Plate<Real>* plate) {
+  const std::size_t links = kernels::link_work_size(finest);
+  return plate != nullptr ? std::max(links, kernels::plate_work_size(finest)) : links;
+}
+
+template <class Real>
+Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate)
+    : finest_(finest, has_bending, plate),
+      work_size_(work_size(finest, plate)),
       work_(static_cast<std::size_t>(finest_.bands.count()) * work_size_, Real(0)) {
+  std::optional<Plate<Real>> coarse_plate = finest_.plate;
   for (Grid grid = finest; can_coarsen(grid);) {
     grid = coarser(grid);
-    coarse_.emplace_back(grid, false);
+    if (coarse_plate) coarse_plate = coarse_plate->coarser();
+    coarse_.emplace_back(grid, false, coarse_plate ? &*coarse_plate : nullptr);
   }
   if (!coarse_.empty()) coarsest_.emplace(coarse_.back().matrix.grid);
 }
@@ -90,14 +112,17 @@ void Multigrid<Real>::prepare() {
     }
     if (i + 1 < coarse_.size()) prepare_level(coarse_[i]);
   }
-  if (coarsest_) coarsest_->factorise(coarse_.back().matrix);
+  if (!coarsest_) return;
+  const auto& plate = coarse_.back().plate;
+  coarsest_->factorise(coarse_.back().matrix, plate ? &*plate : nullptr);
 }
 
 template <class Real>
 template <class Fine>
 void Multigrid<Real>::prepare_level(Fine& level) {
+  const auto smoothed = level.smoothed();
   level.bands.for_each([&](kernels::RowRange rows, int) {
-    kernels::invert_diagonal(level.matrix, static_cast<Real>(kDamping), level.inverse, rows);
+    kernels::invert_diagonal(smoothed, static_cast<Real>(kDamping), level.inverse, rows);
   });
 }
 
@@ -131,9 +156,19 @@ void Multigrid<Real>::coarsen(Fine& fine, Coarse& coarse) {
 }
 
 template <class Real>
+template <class Links>
+double Multigrid<Real>::add_plate(GridLevel<Real, Links>& level, kernels::Components<const Real> x,
+                                  Real factor, kernels::Components<Real> y, kernels::RowRange rows,
+                                  int band) {
+  return kernels::add_plate<Real>(level.plate->stencils(), level.matrix.grid, x, factor, level.matrix.free, y,
+                                  rows, work(band));
+}
+
+template <class Real>
 double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) {
   const double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
-    return kernels::multiply(finest_.matrix, x, y, rows, work(band));
+    const double links = kernels::multiply(finest_.matrix, x, y, rows, work(band));
+    return finest_.plate ? links + add_plate(finest_, x, Real(1), y, rows, band) : links;
   });
   return bodies_.empty() ? product : product + bodies_.multiply(x, y);
 }
@@ -156,6 +191,7 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
     const Grid& coarse_grid = coarse.matrix.grid;
     level.bands.for_each([&](kernels::RowRange rows, int band) {
       kernels::residual<Real, Links>(level.matrix, level.x, b, level.y, rows, work(band));
+      if (level.plate) add_plate(level, level.x, Real(-1), level.y, rows, band);
     });
     coarse.bands.for_each([&](kernels::RowRange rows, int band) {
       kernels::restrict_sum<Real>(grid, level.y.x, coarse_grid, coarse.b.x, rows, work(band));
@@ -176,7 +212,11 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
     });
   }
   return level.bands.sum([&](kernels::RowRange rows, int band) {
-    return kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
+    const double links =
+        kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
+    if (!level.plate) return links;
+    return links + kernels::relax_plate<Real>(level.plate->stencils(), grid, level.inverse, level.x, b, z,
+                                              rows, work(band));
   });
 }
 

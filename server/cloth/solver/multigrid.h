@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cloth/bands.h"
+#include "cloth/plate.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
@@ -11,16 +12,19 @@ namespace weft {
 /// One grid of the hierarchy: its matrix and the vectors of a cycle, with their storage.
 template <class Real, class Links>
 struct GridLevel {
-  GridLevel(const Grid& grid, bool has_bending);
+  GridLevel(const Grid& grid, bool has_bending, const Plate<Real>* plate);
   GridLevel(GridLevel&&) noexcept = default;  // not to be copied: the views below point into the storage
 
   Bands bands;
   kernels::LinkMatrix<Real, Links> matrix;
-  kernels::Blocks<Real> inverse;  ///< of the diagonal blocks, damped
+  std::optional<Plate<Real>> plate;  ///< part of the matrix, if there is one
+  kernels::Blocks<Real> inverse;     ///< of the diagonal blocks, damped
   kernels::Components<Real> b, x, y;
 
   Real* diagonal() { return numbers_[0]; }
   Real* free() { return numbers_[1]; }
+  /// The matrix as block Jacobi sees it: with the plate's share of the diagonal.
+  kernels::LinkMatrix<Real, Links> smoothed();
   /// With blocks in the diagonal, all zero, or without.
   void use_blocks(bool use);
 
@@ -32,12 +36,13 @@ struct GridLevel {
 /// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
-/// Bodies may hang on the nodes: they are part of A, but not of the preconditioner.
+/// A plate may be part of A, on every level by its own rigidities. Bodies may hang on the nodes: they are
+/// part of A, but not of the preconditioner.
 template <class Real>
 class Multigrid {
  public:
   /// For grids with an even number of cells on both sides; coarsens while that holds.
-  Multigrid(const Grid& finest, bool has_bending);
+  Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate = nullptr);
 
   const Grid& grid() const { return finest_.matrix.grid; }
   int levels() const { return 1 + static_cast<int>(coarse_.size()); }
@@ -56,12 +61,18 @@ class Multigrid {
 
  private:
   using Coarse = GridLevel<Real, kernels::Blocks<Real>>;
+  /// With `plate`, of the finest grid, or nullptr.
+  static std::size_t work_size(const Grid& finest, const Plate<Real>* plate);
   /// Work space of a band of any level.
   Real* work(int band) { return work_.data() + static_cast<std::size_t>(band) * work_size_; }
   template <class Fine>
   void prepare_level(Fine& level);
   template <class Fine>
   void coarsen(Fine& fine, Coarse& coarse);
+  /// y += factor free (plate's matrix) x on the band's rows; returns x . (what was added).
+  template <class Links>
+  double add_plate(GridLevel<Real, Links>& level, kernels::Components<const Real> x, Real factor,
+                   kernels::Components<Real> y, kernels::RowRange rows, int band);
   template <class Links>
   double cycle(GridLevel<Real, Links>& level, std::size_t next, kernels::Components<const Real> b,
                kernels::Components<Real> z);

@@ -37,6 +37,26 @@ TEST(Fabrics, HaveValuesOfRealCloth) {
   }
 }
 
+TEST(Fabrics, HaveTheRigidityOfRealCloth) {
+  // physics.md A: silk 5e-6 to denim 1e-4 N m; a hand's width of overhang is (B / (rho g))^(1/3) = 2 to 4 cm.
+  for (const Fabric& fabric : fabrics()) {
+    const auto& [u, v, twist] = fabric.material.rigidity;
+    for (const double rigidity : {u, v, twist}) {
+      EXPECT_GE(rigidity, 1e-6) << fabric.name;
+      EXPECT_LE(rigidity, 2e-4) << fabric.name;
+    }
+    const double bending_length = std::cbrt((u + v) / 2 / (fabric.material.density * 9.81));
+    EXPECT_GT(bending_length, 0.01) << fabric.name;
+    EXPECT_LT(bending_length, 0.05) << fabric.name;
+  }
+}
+
+TEST(Fabrics, DenimsBiasIsAsMeasured) {
+  // 64, 73 and 97 uN m along u, the bias and v.
+  const Rigidity denim = find_fabric("denim")->material.rigidity;
+  EXPECT_DOUBLE_EQ((denim.u + denim.v + 2 * denim.twist) / 4, 7.3e-5);
+}
+
 TEST(Fabrics, AreFoundByName) {
   for (const Fabric& fabric : fabrics()) {
     const Fabric* found = find_fabric(fabric.name);

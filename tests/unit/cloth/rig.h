@@ -1,6 +1,7 @@
 #pragma once
 /// One sheet under one integrator, without the scene around it.
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cloth/integrators/integrator.h"
@@ -8,7 +9,16 @@
 
 namespace weft::test {
 
-/// A sheet, its springs and effects, stepped by the integrator alone.
+/// tau of the effect strain_damping, s; 0 where it is not listed.
+inline double damping_time(const std::vector<EffectDescription>& listed) {
+  for (const EffectDescription& effect : listed) {
+    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) return damping->time;
+  }
+  return 0;
+}
+
+/// A sheet, its springs and effects, stepped by the integrator alone. A plate is clamped where the sheet is
+/// held when it is handed over.
 template <class Real>
 struct Rig {
   ClothDescription cloth;
@@ -16,22 +26,28 @@ struct Rig {
   std::vector<Solid> solids;
   Particles<Real> particles;
   Springs<Real> springs;
+  std::optional<Plate<Real>> plate;
   std::vector<std::unique_ptr<Effect<Real>>> effects;
   std::unique_ptr<Integrator<Real>> integrator;
 
   Rig(Particles<Real> sheet, const Vec2& size, const Material& material, Discretization discretization,
       const std::vector<EffectDescription>& listed, const IntegratorDescription& stepping)
       : particles(std::move(sheet)),
-        springs(material, discretization, size, particles.grid()),
+        springs(material, discretization, size, particles.grid(), damping_time(listed)),
         effects(make_effects<Real>(listed)),
         integrator(make_integrator<Real>(stepping)) {
     cloth.size = size;
     cloth.material = material;
     cloth.discretization = discretization;
+    const bool bends = std::any_of(listed.begin(), listed.end(), [](const EffectDescription& effect) {
+      return std::holds_alternative<PlateBendingEffect>(effect);
+    });
+    if (bends) plate.emplace(material.rigidity, size, particles.inverse_mass);
   }
   AdvanceReport advance(double time, double dt) {
-    return integrator->advance(particles, {&springs, &effects, {&cloth, &wind, time}}, nullptr, solids, time,
-                               dt);
+    return integrator->advance(
+        particles, {&springs, &effects, {&cloth, &wind, time}, nullptr, plate ? &*plate : nullptr}, nullptr,
+        solids, time, dt);
   }
 };
 

@@ -1,0 +1,102 @@
+#include "cloth/kernels/strain_damping_kernels.h"
+
+#include <cmath>
+#include <limits>
+
+#include "cloth/multiversion.h"
+
+namespace weft::kernels {
+namespace {
+
+template <class Real>
+struct Fields {
+  Components<const Real> position, change;
+  Components<Real> force;
+  Components<Real> work;  ///< a row: forces on the springs' first ends
+};
+
+/// Springs of one family that begin in one row, at the columns [begin, end); `first` is where the row begins,
+/// `other` where their second ends lie from the first.
+template <class Real>
+[[gnu::always_inline]] inline void add_row(const SpringColumns<Real>& springs, Real factor,
+                                           const Fields<Real>& fields, std::ptrdiff_t first,
+                                           std::ptrdiff_t other, int begin, int end) {
+  const Real* __restrict stiffness = springs.stiffness;
+  const Real* __restrict x = fields.position.x + first;
+  const Real* __restrict y = fields.position.y + first;
+  const Real* __restrict z = fields.position.z + first;
+  const Real* __restrict ux = fields.change.x + first;
+  const Real* __restrict uy = fields.change.y + first;
+  const Real* __restrict uz = fields.change.z + first;
+  const Components<Real> work = fields.work;
+  const Components<Real> force = fields.force + static_cast<std::size_t>(first);
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = begin; c < end; ++c) {
+    const Real dx = x[c] - x[c + other], dy = y[c] - y[c + other], dz = z[c] - z[c + other];
+    // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
+    const Real squared = dx * dx + dy * dy + dz * dz + std::numeric_limits<Real>::min();
+    const Real rate =
+        dx * (ux[c] - ux[c + other]) + dy * (uy[c] - uy[c + other]) + dz * (uz[c] - uz[c + other]);
+    const Real along = -factor * stiffness[c] * (rate / squared);
+    work.x[c] = along * dx;
+    work.y[c] = along * dy;
+    work.z[c] = along * dz;
+  }
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = begin; c < end; ++c) {
+    force.x[c] += work.x[c];
+    force.y[c] += work.y[c];
+    force.z[c] += work.z[c];
+  }
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = begin; c < end; ++c) {
+    force.x[c + other] -= work.x[c];
+    force.y[c + other] -= work.y[c];
+    force.z[c + other] -= work.z[c];
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid, Real factor,
+                                           const Fields<Real>& fields) {
+  const std::ptrdiff_t stride = grid.stride;
+  for (int r = 0; r < grid.rows; ++r) {
+    const std::ptrdiff_t first = r * stride;
+    const bool last = r + 1 == grid.rows;
+    const Real share = r == 0 || last ? springs.border_row_share * factor : factor;
+    add_row(springs.along_u, share, fields, first, 1, 0, grid.cols - 1);
+    if (springs.has_bending) {
+      add_row(springs.bending_u, share, fields, first, 2, 0, grid.cols - 2);
+      if (r + 2 < grid.rows) add_row(springs.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
+    }
+    if (last) break;
+    add_row(springs.along_v, factor, fields, first, stride, 0, grid.cols);
+    if (springs.has_shear) {
+      add_row(springs.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
+      add_row(springs.rising, factor, fields, first, stride - 1, 1, grid.cols);
+    }
+  }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Components<Real> work_row(const Grid& grid, Real* work) {
+  return {work, work + grid.stride, work + 2 * grid.stride};
+}
+
+}  // namespace
+
+std::size_t strain_damping_work_size(const Grid& grid) { return 3 * static_cast<std::size_t>(grid.stride); }
+
+WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<float>& springs, const Grid& grid,
+                                          Components<const float> position, Components<const float> change,
+                                          float factor, Components<float> force, float* work) {
+  add_all<float>(springs, grid, factor, {position, change, force, work_row(grid, work)});
+}
+
+WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<double>& springs, const Grid& grid,
+                                          Components<const double> position, Components<const double> change,
+                                          double factor, Components<double> force, double* work) {
+  add_all<double>(springs, grid, factor, {position, change, force, work_row(grid, work)});
+}
+
+}  // namespace weft::kernels
