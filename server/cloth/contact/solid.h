@@ -46,10 +46,11 @@ struct Solid {
   bool moves() const { return position != start || !velocity.isZero(0) || turns(); }
   /// How far a point goes that is at `point` at `from` and then goes with it, m.
   Vec3 move_of(const Vec3& point, double from, double to) const {
-    const Vec3 move = at(to) - at(from);
+    Vec3 move = at(to) - at(from);
     if (!turns()) return move;
     const Vec3 arm = point - at(from);
-    return move + turned(to - from) * arm - arm;
+    move += turned(to - from) * arm - arm;
+    return move;
   }
   /// How far a node that is at `node`, inside, when a part of the step begins is led out in it, m; 0 outside.
   double led_out(const Vec3& node, double from, double to) const;
