@@ -227,6 +227,7 @@ template <class Real>
 void Cloth<Real>::set_pins() {
   guard_.repair(particles_);
   pins_ = Pins<Real>(description_.pins, time_, particles_);
+  make_springs();  // a plate is clamped where it is held
   integrator_->restart();
   hand_to_guard();
   wake();
