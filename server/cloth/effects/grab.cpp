@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/solver/node_vector.h"
+
 namespace weft {
 namespace {
 
@@ -42,11 +44,6 @@ double total_mass(const ClothDescription& cloth) {
   return cloth.material.density * cloth.size.x() * cloth.size.y();
 }
 
-template <class Real>
-Vec3 value(kernels::Components<const Real> field, std::size_t i) {
-  return {double(field.x[i]), double(field.y[i]), double(field.z[i])};
-}
-
 }  // namespace
 
 template <class Real>
@@ -63,24 +60,28 @@ bool Grabs<Real>::release(GrabId id) {
 }
 
 template <class Real>
-Vec3 Grabs<Real>::place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& at) {
+Vec3 Grabs<Real>::place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& uv) {
   Vec3 place(0, 0, 0);
-  for_each_in_patch(particles.grid(), cloth.size, at, patch_radius(cloth, kPatch),
+  for_each_in_patch(particles.grid(), cloth.size, uv, patch_radius(cloth, kPatch),
                     [&](std::size_t i, double weight) {
-                      place += weight * value<Real>(kernels::components(particles.position), i);
+                      place += weight * at(kernels::components(particles.position), i);
                     });
   return place;
 }
 
 template <class Real>
 auto Grabs<Real>::pull_of(const Grab& grab, const Particles<Real>& particles,
-                          const ClothDescription& cloth) const -> Pull {
+                          const EffectContext& context) const -> Pull {
+  const ClothDescription& cloth = *context.cloth;
   const double stiffness = total_mass(cloth) * kFrequency * kFrequency;
-  const double damping = total_mass(cloth) * kFrequency;  // half of critical for the whole cloth
+  // Half of critical for the whole cloth, or what the substep bears of it: half of its room, as a quicker
+  // ball or wind may come on top.
+  const double rate = kFrequency * largest_share(particles, cloth) * static_cast<double>(grabs_.size());
+  const double damping = total_mass(cloth) * kFrequency * std::min(1.0, context.damping_limit / 2 / rate);
   Vec3 speed(0, 0, 0);
   for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
                     [&](std::size_t i, double weight) {
-                      speed += weight * value<Real>(kernels::components(particles.velocity), i);
+                      speed += weight * at(kernels::components(particles.velocity), i);
                     });
   const Vec3 whole = stiffness * (grab.hand - place(particles, cloth, grab.at)) - damping * speed;
   const double strength = whole.norm();
@@ -94,7 +95,7 @@ void Grabs<Real>::add_forces(const Particles<Real>& particles, const EffectConte
   const ClothDescription& cloth = *context.cloth;
   const auto total = kernels::components(force);
   for (const Grab& grab : grabs_) {
-    const Vec3 pull = pull_of(grab, particles, cloth).force;
+    const Vec3 pull = pull_of(grab, particles, context).force;
     for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
                       [&](std::size_t i, double weight) {
                         total.x[i] += static_cast<Real>(weight * pull.x());
@@ -105,19 +106,24 @@ void Grabs<Real>::add_forces(const Particles<Real>& particles, const EffectConte
 }
 
 template <class Real>
-double Grabs<Real>::max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const {
-  // A spring of frequency w asks no more of a step than a damping rate of w.
-  const ClothDescription& cloth = *context.cloth;
+double Grabs<Real>::largest_share(const Particles<Real>& particles, const ClothDescription& cloth) const {
   const Real* inverse_mass = particles.inverse_mass.row(0);
   double most = 0;
   for (const Grab& grab : grabs_) {
     for_each_in_patch(particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
                       [&](std::size_t i, double weight) {
-                        const double share = total_mass(cloth) * weight * double(inverse_mass[i]);
-                        most = std::max(most, kFrequency * (share + std::sqrt(share)));
+                        most = std::max(most, total_mass(cloth) * weight * double(inverse_mass[i]));
                       });
   }
-  return most * static_cast<double>(grabs_.size());  // they may hold the same patch
+  return most;
+}
+
+template <class Real>
+double Grabs<Real>::max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const {
+  // Of the springs alone, as the damping holds itself to what a substep bears: one of frequency w asks no
+  // more of it than a damping rate of w. They may all hold the same patch.
+  return kFrequency *
+         std::sqrt(largest_share(particles, *context.cloth) * static_cast<double>(grabs_.size()));
 }
 
 template <class Real>
@@ -127,7 +133,7 @@ void Grabs<Real>::add_damping(const Particles<Real>& particles, const EffectCont
   const double all = total_mass(cloth) * kFrequency * (1 + kFrequency * context.step);
   for (const Grab& grab : grabs_) {
     // A hand that slips hardly feels where the cloth is.
-    const double share = pull_of(grab, particles, cloth).share;
+    const double share = pull_of(grab, particles, context).share;
     for_each_in_patch(
         particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
         [&](std::size_t i, double weight) { damping.scalar[i] += static_cast<Real>(share * weight * all); });

@@ -19,7 +19,8 @@ struct Grab {
 /// The cloth's grabs: a damped spring between each hand and the mean of its patch, of at most max_force. The
 /// patch is a hat of 1/16 of the shorter side around the point, or of a cell where those are larger, so that
 /// its size does not hang on the level. The spring is so stiff that the whole cloth, hung from it, swings at
-/// kFrequency: it hangs g / kFrequency^2 = 2.5 cm below the hand whatever it weighs.
+/// kFrequency: it hangs g / kFrequency^2 = 2.5 cm below the hand whatever it weighs. Where an explicit
+/// substep does not bear the damping, it has less of it.
 template <class Real>
 class Grabs final : public Effect<Real> {
  public:
@@ -34,7 +35,7 @@ class Grabs final : public Effect<Real> {
   bool move(GrabId id, const Vec3& hand);
   bool release(GrabId id);
   /// Where what would be held at (u, v) is now, m.
-  static Vec3 place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& at);
+  static Vec3 place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& uv);
 
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
@@ -48,7 +49,9 @@ class Grabs final : public Effect<Real> {
     Vec3 force;    ///< N
     double share;  ///< of the spring's: below 1 where the hand slips
   };
-  Pull pull_of(const Grab& grab, const Particles<Real>& particles, const ClothDescription& cloth) const;
+  Pull pull_of(const Grab& grab, const Particles<Real>& particles, const EffectContext& context) const;
+  /// Of the cloth's mass over a node's own, what the node bears of a grab, at most.
+  double largest_share(const Particles<Real>& particles, const ClothDescription& cloth) const;
 
   std::vector<Grab> grabs_;
 };

@@ -22,6 +22,7 @@ constexpr double kSmallestShare = 1e-4;
 constexpr double kSlow = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
+
 template <class Real>
 void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
   std::copy_n(from.x, count, to.x);

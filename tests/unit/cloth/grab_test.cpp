@@ -108,6 +108,20 @@ TEST(Grabs, SlipWhenTheClothIsTooHeavy) {
   EXPECT_NEAR(before - centre_of_mass(), acceleration * time * time / 2, acceleration * time / 60 / 2 + 1e-6);
 }
 
+TEST(Grabs, LeaveTheRestOfTheClothToGravity) {
+  // A hand that all but slips holds one corner: the rest falls freely, with every method.
+  for (const IntegratorDescription& integrator : kIntegrators) {
+    SimulationDescription scene = sheet(integrator);
+    scene.effects = {GravityEffect{}};
+    Simulation<double> simulation(scene);
+    for (int hand = 0; hand < 4; ++hand) simulation.grab(0, {0, 0}, Vec3(-0.5, 0.6, 0), 1e-3);
+    for (int step = 0; step < 30; ++step) simulation.step();
+    // Of 0.98 N, and the first order's g h t / 2.
+    const double fall = 9.81 / 8, first_order = 9.81 / 60 / 4;
+    EXPECT_NEAR(-simulation.centre(0).y(), fall, 0.01 * fall + first_order) << integrator.index();
+  }
+}
+
 TEST(Grabs, KeepTheirHoldThroughLevels) {
   Simulation<float> simulation(sheet(Bdf2Description{}));
   const GrabId grab = simulation.grab(0, {0, 0}, std::nullopt, 100);
