@@ -257,7 +257,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
     const bool found = changed.taken || decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
-    const bool pulled = s.contacts.release_pulling(s.move, s.system.bodies()) > solved.target;
+    const bool pulled =
+        !s.contacts.empty() && s.contacts.release_pulling(s.move, s.system.bodies()) > solved.target;
     if (report.brought_in <= 0 && !pulled &&
         (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
       break;
