@@ -44,11 +44,13 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
   constexpr Range kCoefficient{0, 100};
   constexpr Range kDampingTime{0, 10, "s"};
+  constexpr Range kThickness{1e-4, 1, "m"};
+  constexpr Range kFriction{0, 10};
   Object object(value, path, report);
   object.require("type", "an effect's name");
   switch (object.choice(
       "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName})) {
+               StrainDampingEffect::kName, PlateBendingEffect::kName, ClothContactEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -77,6 +79,12 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     }
     case 5:
       return PlateBendingEffect{};
+    case 6: {
+      ClothContactEffect contact;
+      object.number("thickness", contact.thickness, kThickness);
+      object.number("friction", contact.friction, kFriction);
+      return contact;
+    }
     default:
       object.ignore_rest();
       return std::nullopt;

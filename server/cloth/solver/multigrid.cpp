@@ -166,11 +166,13 @@ double Multigrid<Real>::add_plate(GridLevel<Real, Links>& level, kernels::Compon
 
 template <class Real>
 double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) {
-  const double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
+  double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
     const double links = kernels::multiply(finest_.matrix, x, y, rows, work(band));
     return finest_.plate ? links + add_plate(finest_, x, Real(1), y, rows, band) : links;
   });
-  return bodies_.empty() ? product : product + bodies_.multiply(x, y);
+  if (!bodies_.empty()) product += bodies_.multiply(x, y);
+  if (!couplings_.empty()) product += couplings_.multiply(x, y);
+  return product;
 }
 
 template <class Real>
