@@ -69,8 +69,16 @@ struct StrainLimitEffect {
   static constexpr const char* kName = "strain_limit";
 };
 
-using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect,
-                                       StrainDampingEffect, PlateBendingEffect, StrainLimitEffect>;
+/// Cloth does not pass through itself nor through another cloth of the scene (layers/layers.h).
+struct ClothContactEffect {
+  double thickness = 0.005;  ///< kept between layers, m; finite, > 0. Held to half a cell of a level.
+  double friction = 0.3;     ///< Coulomb's coefficient between cloth and cloth, >= 0
+  static constexpr const char* kName = "cloth_contact";
+};
+
+using EffectDescription =
+    std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect>;
 
 // --- Things in the scene ---
 

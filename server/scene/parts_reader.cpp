@@ -44,11 +44,14 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
   constexpr Range kCoefficient{0, 100};
   constexpr Range kDampingTime{0, 10, "s"};
+  constexpr Range kThickness{1e-4, 1, "m"};
+  constexpr Range kFriction{0, 10};
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (object.choice(
-      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName, StrainLimitEffect::kName})) {
+  switch (
+      object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
+                             AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
+                             StrainLimitEffect::kName, ClothContactEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -79,6 +82,12 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
       return PlateBendingEffect{};
     case 6:
       return StrainLimitEffect{};
+    case 7: {
+      ClothContactEffect contact;
+      object.number("thickness", contact.thickness, kThickness);
+      object.number("friction", contact.friction, kFriction);
+      return contact;
+    }
     default:
       object.ignore_rest();
       return std::nullopt;

@@ -23,6 +23,7 @@ EFFECTS = {
     "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
     "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
     "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
+    "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet)::"]),
     "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
 }
 

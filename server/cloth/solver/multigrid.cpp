@@ -175,13 +175,15 @@ void Multigrid<Real>::coarsen(Fine& fine, Coarse& coarse) {
 
 template <class Real>
 double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) {
-  const double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
+  double product = finest_.bands.sum([&](kernels::RowRange rows, int band) {
     const double links = kernels::multiply(finest_.matrix, x, y, rows, work(band));
     if (!finest_.plate) return links;
     return links + kernels::add_plate<Real>(finest_.plate->stencils(), grid(), x, finest_.matrix.free, y,
                                             rows, work(band));
   });
-  return bodies_.empty() ? product : product + bodies_.multiply(x, y);
+  if (!bodies_.empty()) product += bodies_.multiply(x, y);
+  if (!couplings_.empty()) product += couplings_.multiply(x, y);
+  return product;
 }
 
 template <class Real>

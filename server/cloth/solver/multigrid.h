@@ -6,6 +6,7 @@
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
+#include "cloth/solver/node_couplings.h"
 
 namespace weft {
 
@@ -40,8 +41,8 @@ struct GridLevel {
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
 /// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
-/// inertia outweighs it at every node. Bodies may hang on the nodes: they are
-/// part of A, but not of the preconditioner.
+/// inertia outweighs it at every node. Bodies may hang on the nodes, and nodes on one another: that is part
+/// of A, but not of the preconditioner.
 template <class Real>
 class Multigrid {
  public:
@@ -55,6 +56,7 @@ class Multigrid {
   /// blocks. Zero at first.
   GridLevel<Real, kernels::SpringLinks<Real>>& finest() { return finest_; }
   AttachedBodies<Real>& bodies() { return bodies_; }
+  NodeCouplings<Real>& couplings() { return couplings_; }
   /// Builds the coarse matrices and all that a cycle needs.
   void prepare();
 
@@ -79,6 +81,7 @@ class Multigrid {
 
   GridLevel<Real, kernels::SpringLinks<Real>> finest_;
   AttachedBodies<Real> bodies_;
+  NodeCouplings<Real> couplings_;
   std::vector<Coarse> coarse_;  ///< fine to coarse
   std::optional<CoarseSolver<Real>> coarsest_;
   std::size_t work_size_;  ///< of a band
