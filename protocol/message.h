@@ -44,11 +44,13 @@ struct Camera {
 struct Ack {
   std::uint32_t frame = 0;
 };
+/// A ball's, "kinematic" or "dynamic" on the wire.
+enum class Motion { kinematic, dynamic };
 struct BallAdd {
   Vector position{};
   double radius = 0;
   Vector velocity{};
-  bool dynamic = false;
+  Motion motion = Motion::kinematic;
   double mass = 1;
 };
 struct BallMove {
@@ -88,6 +90,10 @@ struct ClothUnpin {
   std::uint32_t cloth = 0;
   double u = 0, v = 0;
 };
+struct EffectSet {
+  std::string effect;
+  bool on = true;
+};
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
@@ -111,7 +117,7 @@ struct Ping {
 
 using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
                              BallRemove, ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
-                             WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+                             EffectSet, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

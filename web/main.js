@@ -2,6 +2,7 @@ import {BallHand} from './ball_hand.js';
 import {CameraRig, EyeReporter} from './camera_rig.js';
 import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
+import {EffectsPanel} from './effects_panel.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
 import {Link} from './link.js';
@@ -87,6 +88,16 @@ function start(settings) {
     askCost: () => command({op: 'cost'}),
     setQuality: (wish) => command({op: 'quality', ...wish}),
   });
+  const effects = new EffectsPanel({
+    setEffect: async (effect, on) => {
+      if (!(await command({op: 'effect.set', effect, on}))) effects.setOff(effectsOff);
+    },
+  });
+  let effectsOff = [];
+  const setEffectsOff = (off) => {
+    effectsOff = off;
+    effects.setOff(off);
+  };
   panel.setWireframe(settings.wireframe);
   // Before the ball's hand: it takes what Shift and the tool make its own, and leaves the rest.
   const clothHand = new ClothHand(stage, show, {
@@ -130,6 +141,7 @@ function start(settings) {
     panel.setLive(detail.state === 'open');
     clothHand.forget();
     cost.setLive(detail.state === 'open');
+    effects.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
@@ -171,6 +183,8 @@ function start(settings) {
       panel.setTitle(message.title);
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
+      effects.begin(message.effects);
+      setEffectsOff(message.effects_off ?? []);
       tellNothing();
       cost.begin();
     },
@@ -181,7 +195,13 @@ function start(settings) {
       }
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
       if (message.kind === 'cloth.pin' || message.kind === 'cloth.unpin') show.setPins(message.cloth, message.pins);
+      if (message.kind === 'effect') {
+        setEffectsOff(message.effects_off);
+        cost.begin();  // what was measured was another composition
+      }
       if (message.kind === 'reset') {
+        if (effectsOff.length > 0) cost.begin();
+        setEffectsOff([]);
         tellNothing();
         clothHand.forget();
         message.pins?.forEach((pins, cloth) => show.setPins(cloth, pins));
@@ -256,7 +276,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, hand, clothHand, counts, latest});
+  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -269,7 +289,7 @@ function aimed(from, to, speed) {
 }
 
 /** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, hand, clothHand, counts, latest}) {
+function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff}) {
   window.weft = {
     get stats() {
       return {
@@ -284,6 +304,7 @@ function publishHook({link, show, rig, stage, hand, clothHand, counts, latest}) 
         lastFrame: show.timeline.newest?.stamp ?? null,
         wind: show.wind,
         hand: clothHand.held,
+        effectsOff: effectsOff(),
         pins: Object.fromEntries(show.marks.held),
         server: latest.stats,
       };

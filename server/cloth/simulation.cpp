@@ -51,6 +51,12 @@ void Simulation<Real>::set_integrator(const IntegratorDescription& integrator) {
 }
 
 template <class Real>
+void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects) {
+  gravity_ = total_gravity(effects);
+  for (Cloth<Real>& cloth : cloths_) cloth.set_effects(effects);
+}
+
+template <class Real>
 GrabId Simulation<Real>::grab(std::size_t cloth, const Vec2& at, const std::optional<Vec3>& hand,
                               double max_force) {
   const Vec3 place = Grabs<Real>::place(cloths_[cloth].particles(), description_.cloths[cloth], at);

@@ -62,6 +62,9 @@ class Simulation {
   /// Every cloth is stepped by `integrator` from the next step on; until reset(), which goes back to the
   /// description's.
   void set_integrator(const IntegratorDescription& integrator);
+  /// Only these effects are simulated from the next step on, in every cloth and for the balls; until reset(),
+  /// which goes back to the description's.
+  void set_effects(const std::vector<EffectDescription>& effects);
   BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
   bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }

@@ -48,7 +48,7 @@ json obstacle_json(const ObstacleDescription& obstacle) {
 json effects_json(const SimulationDescription& description) {
   json effects = json::array();
   for (const EffectDescription& effect : description.effects) {
-    effects.push_back(std::visit([](const auto& e) { return e.kName; }, effect));
+    effects.push_back(name_of(effect));
   }
   return effects;
 }
@@ -116,6 +116,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
         {"eye", vector_json(scene.camera_eye)},
         {"target", vector_json(scene.camera_target)},
         {"level", seat.levels}}}};
+  if (!state.effects_off.empty()) message["effects_off"] = state.effects_off;
   for (const ObstacleDescription& obstacle : description.obstacles) {
     message["obstacles"].push_back(obstacle_json(obstacle));
   }

@@ -424,6 +424,14 @@ export class WeftClient {
   }
 
   /**
+   * Takes one of the scene's effects away, or brings it back, for all viewers.
+   * @param {string} effect one of the scene's `effects` @param {boolean} on
+   */
+  setEffect(effect, on) {
+    return this.send('effect.set', { effect, on });
+  }
+
+  /**
    * @param {Vector} direction any length but zero @param {number} speed m/s
    * @param {{gusts?: number}} [change] how strong gusts are, 0 to 1: their root mean square over the speed; without it as they were
    */

@@ -441,6 +441,10 @@ class Client:
         """Takes away the pin that holds (u, v), or the nearest one."""
         return await self.send("cloth.unpin", cloth=cloth, u=u, v=v)
 
+    async def set_effect(self, effect: str, on: bool) -> dict:
+        """Takes one of the scene's effects away, or brings it back, for all viewers."""
+        return await self.send("effect.set", effect=effect, on=on)
+
     async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None) -> dict:
         """Direction of any length but zero; speed in m/s; gusts from 0 to 1, their root mean square over the speed (None: as
         they were)."""

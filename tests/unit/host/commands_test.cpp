@@ -90,7 +90,7 @@ TEST_F(Commands, WithoutAnIdOnlyErrorsAreAnswered) {
 }
 
 TEST_F(Commands, BallsAreAddedMovedThrownAndRemoved) {
-  const json added = command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  const json added = command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1});
   const int ball = added.at("ball");
   EXPECT_EQ(other.last("event", "ball.add").at("ball"), ball);
   EXPECT_EQ(other.last("event", "ball.add").at("balls").at(0).at("radius"), 0.25);
@@ -127,7 +127,8 @@ TEST_F(ObstacleCommands, MoveThemAndFramesTellOfThoseThatMoved) {
   steps(1);
   EXPECT_TRUE(reader.frames.back().obstacles.empty());
   EXPECT_EQ(command(ObstacleMove{1, {0, 6, 0}, Turn{0, 1, 0, 0}}).at("op"), "ok");
-  EXPECT_EQ(command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1}).at("op"), "ok");  // both kinds of list
+  EXPECT_EQ(command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1}).at("op"),
+            "ok");  // both kinds of list
   steps(1);
   const FrameObstacle moved{1, {0, 6, 0}, {0, 1, 0, 0}};
   ASSERT_EQ(reader.frames.back().obstacles.size(), 1u);
@@ -227,15 +228,15 @@ TEST_F(Commands, OnABallThatIsNotThereAreNotFound) {
 
 TEST_F(Commands, The65thBallIsRefused) {
   for (int i = 0; i < 64; ++i) {
-    ASSERT_EQ(command(BallAdd{{0, 0, 10.0 + i}, 0.1, {}, false, 1}).at("op"), "ok");
+    ASSERT_EQ(command(BallAdd{{0, 0, 10.0 + i}, 0.1, {}, Motion::kinematic, 1}).at("op"), "ok");
   }
-  const json error = command(BallAdd{{0, 0, 5}, 0.1, {}, false, 1});
+  const json error = command(BallAdd{{0, 0, 5}, 0.1, {}, Motion::kinematic, 1});
   EXPECT_EQ(error.at("code"), "limit");  // PROTOCOL.md section 6: 64 a scene
   EXPECT_EQ(live.simulation().colliders().balls().size(), 64U);
 }
 
 TEST_F(Commands, ABallThatFliesAwayIsRemovedAndTold) {
-  command(BallAdd{{0, -999.99, 0}, 0.2, {0, -200, 0}, true, 1});
+  command(BallAdd{{0, -999.99, 0}, 0.2, {0, -200, 0}, Motion::dynamic, 1});
   steps(1);  // 3.3 m a step, past 1000 m
   EXPECT_TRUE(live.simulation().colliders().balls().empty());
   EXPECT_EQ(other.last("event", "ball.remove").at("balls"), json::array());
@@ -276,7 +277,7 @@ TEST_F(Commands, StepIsRefusedWhileRunningAndBeyondItsLimit) {
 TEST_F(Commands, ResetStartsTheNextEpoch) {
   const auto start = live.simulation().cloths()[0].particles().position.y.values();
   steps(5);
-  command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1});
   command(WindSet{{1, 0, 0}, 9});
   const json ok = command(Reset{});
   EXPECT_EQ(ok.at("f"), 0);
