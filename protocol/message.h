@@ -99,6 +99,10 @@ struct WindSet {
   double speed = 0;
   std::optional<double> gusts = {};  ///< intensity; without it that stays
 };
+struct WindZoneSet {
+  std::uint32_t zone = 0;  ///< its place in the wind's zones
+  Vector velocity{};
+};
 /// At most one of the two; without either the scene's own again.
 struct Quality {
   std::optional<double> max_error;  ///< in cloth sizes
@@ -115,9 +119,10 @@ struct Ping {
   double t = 0;
 };
 
-using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
-                             BallRemove, ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
-                             EffectSet, WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+using Command =
+    std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
+                 ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin, EffectSet, WindSet,
+                 WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -1,7 +1,7 @@
 const byId = (id) => document.getElementById(id);
 /** What the effects are called here; one that is not known goes by its own name. */
 const kLabels = {
-  gravity: 'Gravity', damping: 'Damping', paper_wind: 'Wind', aerodynamics: 'Wind and air drag',
+  gravity: 'Gravity', damping: 'Damping', paper_wind: 'Wind', aerodynamics: 'Wind and drag',
   strain_damping: 'Inner friction', plate_bending: 'Stiffness to bending',
 };
 

@@ -10,6 +10,7 @@ import {Panel} from './panel.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Show} from './show.js';
 import {Stage} from './stage.js';
+import {ZonesPanel} from './zones_panel.js';
 
 const kBallRadius = 0.2;
 const kButtonThrow = 7;  // m/s
@@ -93,6 +94,10 @@ function start(settings) {
       if (!(await command({op: 'effect.set', effect, on}))) effects.setOff(effectsOff);
     },
   });
+  const zones = new ZonesPanel({
+    setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
+    showZones: (on) => show.setZonesShown(on),
+  });
   let effectsOff = [];
   const setEffectsOff = (off) => {
     effectsOff = off;
@@ -142,6 +147,7 @@ function start(settings) {
     clothHand.forget();
     cost.setLive(detail.state === 'open');
     effects.setLive(detail.state === 'open');
+    zones.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
@@ -183,6 +189,7 @@ function start(settings) {
       panel.setTitle(message.title);
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
+      zones.begin(show.wind);
       effects.begin(message.effects);
       setEffectsOff(message.effects_off ?? []);
       tellNothing();
@@ -192,6 +199,8 @@ function start(settings) {
       if (message.wind) {
         show.setWind(message.wind);
         panel.setWind(show.wind, show.hasWind);
+        if (message.kind === 'reset') zones.begin(show.wind);
+        else zones.show(show.wind);
       }
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
       if (message.kind === 'cloth.pin' || message.kind === 'cloth.unpin') show.setPins(message.cloth, message.pins);

@@ -51,6 +51,14 @@ void Simulation<Real>::set_integrator(const IntegratorDescription& integrator) {
 }
 
 template <class Real>
+void Simulation<Real>::set_wind_zone(std::size_t zone, const Vec3& velocity) {
+  Wind changed = wind();
+  changed.zones[zone].velocity = velocity;
+  set_wind(changed);
+  for (Cloth<Real>& cloth : cloths_) cloth.wake();  // by the wind outside of zones it would not
+}
+
+template <class Real>
 void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects) {
   gravity_ = total_gravity(effects);
   for (Cloth<Real>& cloth : cloths_) cloth.set_effects(effects);

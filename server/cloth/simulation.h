@@ -59,6 +59,8 @@ class Simulation {
   // Commands: each takes effect in the next step.
   void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
   void set_wind(const Wind& wind) { air_.change(wind, time()); }
+  /// How the air moves in one of the wind's zones, m/s.
+  void set_wind_zone(std::size_t zone, const Vec3& velocity);
   /// Every cloth is stepped by `integrator` from the next step on; until reset(), which goes back to the
   /// description's.
   void set_integrator(const IntegratorDescription& integrator);

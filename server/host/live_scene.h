@@ -23,8 +23,8 @@ using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
                  protocol::BallRemove, protocol::ObstacleMove, protocol::ClothGrab, protocol::GrabMove,
                  protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet,
-                 protocol::WindSet, protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume,
-                 protocol::Reset, protocol::Step>;
+                 protocol::WindSet, protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause,
+                 protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -94,6 +94,7 @@ class LiveScene {
   Outcome carry_out(const protocol::ClothUnpin& unpin, Seat& seat);
   Outcome carry_out(const protocol::EffectSet& effect, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
+  Outcome carry_out(const protocol::WindZoneSet& set, Seat& seat);
   Outcome carry_out(const protocol::Quality& quality, Seat& seat);
   Outcome carry_out(const protocol::Cost& cost, Seat& seat);
   Outcome carry_out(const protocol::Pause& pause, Seat& seat);

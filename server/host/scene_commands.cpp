@@ -210,6 +210,16 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   return json::object();
 }
 
+LiveScene::Outcome LiveScene::carry_out(const protocol::WindZoneSet& set, Seat&) {
+  if (set.zone >= simulation_.wind().zones.size()) {
+    return refused("not_found", "/zone",
+                   "/zone is " + std::to_string(set.zone) + "; the wind has no such zone");
+  }
+  simulation_.set_wind_zone(set.zone, to_vec3(set.velocity));
+  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  return json::object();
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::Quality& quality, Seat&) {
   quality_.wish({quality.max_error, quality.max_ms});
   request_levels();

@@ -450,6 +450,10 @@ class Client:
         they were)."""
         return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts)
 
+    async def set_wind_zone(self, zone: int, velocity) -> dict:
+        """How the air moves in one of the wind's zones, m/s; `zone` is its place in the wind's `zones`."""
+        return await self.send("wind.zone.set", zone=zone, velocity=list(velocity))
+
     async def set_quality(self, *, max_error: typing.Optional[float] = None, max_ms: typing.Optional[float] = None) -> dict:
         """Holds the scene to an error (share of the cloth's size) or to a time (ms a step), for all viewers; with neither it is
         the scene's own again."""
