@@ -47,11 +47,11 @@ export class ClothView {
   }
 
   /**
-   * Shows the cloth between two records.
+   * Shows the cloth between two records; `pixel` is what one of the picture spans at the cloth, m.
    * @returns {boolean} whether the mesh still moves by itself (a morph is under way)
    */
-  show(before, after, share, nowMs) {
-    const mesh = this.morph.update(before, after, share, nowMs);
+  show(before, after, share, nowMs, pixel) {
+    const mesh = this.morph.update(before, after, share, nowMs, pixel);
     if (mesh.rows !== this.rows || mesh.cols !== this.cols) this.#rebuild(mesh.rows, mesh.cols);
     const {position, normal} = this.geometry.attributes;
     position.array.set(mesh.positions);

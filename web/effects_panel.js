@@ -2,7 +2,7 @@ const byId = (id) => document.getElementById(id);
 /** What the effects are called here; one that is not known goes by its own name. */
 const kLabels = {
   gravity: 'Gravity', damping: 'Damping', paper_wind: 'Wind', aerodynamics: 'Wind and drag',
-  strain_damping: 'Inner friction', plate_bending: 'Stiffness to bending',
+  strain_damping: 'Inner friction', plate_bending: 'Stiffness to bending', strain_limit: 'Limit to stretch',
 };
 
 const label = (effect) => kLabels[effect] ?? (effect[0].toUpperCase() + effect.slice(1)).replaceAll('_', ' ');

@@ -129,7 +129,7 @@ export class Show {
       const view = this.cloths.get(record.cloth);
       if (!view) continue;
       const earlier = before.cloths.find((each) => each.cloth === record.cloth) ?? record;
-      morphing = view.show(earlier, record, share, nowMs) || morphing;
+      morphing = view.show(earlier, record, share, nowMs, view.centre ? this.stage.pixelAt(view.centre) : Infinity) || morphing;
     }
     const coarsest = Math.max(0, ...[...this.cloths.values()].map((view) => view.halfDiagonal || 0));
     this.balls.show(before.balls, after.balls, share, coarsest);

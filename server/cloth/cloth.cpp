@@ -93,10 +93,11 @@ void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
   effects_ = std::move(composed);
   composed_ = count;
   damping_time_ = 0;
-  bends_plate_ = false;
+  bends_plate_ = limits_strain_ = false;
   for (const EffectDescription& effect : effects) {
     if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
     bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
+    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
   }
 }
 
@@ -162,7 +163,7 @@ void Cloth<Real>::hand_to_guard() {
 template <class Real>
 void Cloth<Real>::make_springs() {
   springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
-                           particles_.grid(), damping_time_);
+                           particles_.grid(), damping_time_, limits_strain_);
   plate_.reset();
   if (bends_plate_)
     plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass);

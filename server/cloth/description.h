@@ -62,8 +62,15 @@ struct PlateBendingEffect {
   static constexpr const char* kName = "plate_bending";
 };
 
+/// Threads that are pulled straight: structural and shear springs stiffen beyond each cloth's own
+/// Material::limit, the tension going on without a jump (the bilinear springs of biphasic cloth models;
+/// Provot, Deformation constraints in a mass-spring model, 1995, holds the limit outright).
+struct StrainLimitEffect {
+  static constexpr const char* kName = "strain_limit";
+};
+
 using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect,
-                                       StrainDampingEffect, PlateBendingEffect>;
+                                       StrainDampingEffect, PlateBendingEffect, StrainLimitEffect>;
 
 // --- Things in the scene ---
 

@@ -48,7 +48,7 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   object.require("type", "an effect's name");
   switch (object.choice(
       "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName})) {
+               StrainDampingEffect::kName, PlateBendingEffect::kName, StrainLimitEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -77,6 +77,8 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     }
     case 5:
       return PlateBendingEffect{};
+    case 6:
+      return StrainLimitEffect{};
     default:
       object.ignore_rest();
       return std::nullopt;

@@ -22,7 +22,8 @@ EFFECTS = {
     "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
     "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
     "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
-    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|relax)_plate.*clone"]),
+    "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
+    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
 }
 
 

@@ -23,8 +23,8 @@ SimulationDescription sheet(const IntegratorDescription& integrator = Bdf2Descri
   cloth.material.rigidity = Rigidity{1e-4, 1e-4, 1e-4};
   cloth.pins = {{0, 0, 0, 0}, {1, 1, 0, 0}};
   scene.cloths = {cloth};
-  scene.effects = {GravityEffect{},      DampingEffect{},       PaperWindEffect{},
-                   AerodynamicsEffect{}, StrainDampingEffect{}, PlateBendingEffect{}};
+  scene.effects = {GravityEffect{},       DampingEffect{},      PaperWindEffect{},  AerodynamicsEffect{},
+                   StrainDampingEffect{}, PlateBendingEffect{}, StrainLimitEffect{}};
   scene.wind = {{0, 0, -1}, 3};
   scene.wind.turbulence = {0.3, 0.5};
   BallDescription ball;
