@@ -123,18 +123,26 @@ Fault read(const json& value, const Bounds& bounds, const std::string& path, Tex
   return {};
 }
 
-/// A ball's motion, by name on the wire.
 constexpr const char* kKinematic = "kinematic";
 constexpr const char* kDynamic = "dynamic";
 
-std::string kind_of(const bool&, const Bounds&) {
+std::string kind_of(const Motion&, const Bounds&) {
   return std::string("\"") + kKinematic + "\" or \"" + kDynamic + "\"";
 }
 
-Fault read(const json& value, const Bounds& bounds, const std::string& path, bool& to) {
+Fault read(const json& value, const Bounds& bounds, const std::string& path, Motion& to) {
   if (!value.is_string()) return refuse("bad_type", path, value, kind_of(to, bounds));
-  to = value == kDynamic;
-  if (!to && value != kKinematic) return refuse("range", path, value, kind_of(to, bounds));
+  to = value == kDynamic ? Motion::dynamic : Motion::kinematic;
+  if (to == Motion::kinematic && value != kKinematic)
+    return refuse("range", path, value, kind_of(to, bounds));
+  return {};
+}
+
+std::string kind_of(const bool&, const Bounds&) { return "true or false"; }
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path, bool& to) {
+  if (!value.is_boolean()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  to = value.get<bool>();
   return {};
 }
 
@@ -152,7 +160,7 @@ template <class T>
 void write(const T& from, ordered_json& to) {
   to = from;
 }
-void write(const bool& dynamic, ordered_json& to) { to = dynamic ? kDynamic : kKinematic; }
+void write(const Motion& motion, ordered_json& to) { to = motion == Motion::dynamic ? kDynamic : kKinematic; }
 template <class T>
 void write(const std::optional<T>& from, ordered_json& to) {
   if (from) to = *from;
@@ -270,7 +278,7 @@ const std::vector<Operation>& operations() {
        {field<&BallAdd::position>("position", kRequired, kPlace),
         field<&BallAdd::radius>("radius", kRequired, {0.01, 10, "m"}),
         field<&BallAdd::velocity>("velocity", kOptional, kVelocity),
-        field<&BallAdd::dynamic>("motion", kOptional),
+        field<&BallAdd::motion>("motion", kOptional),
         field<&BallAdd::mass>("mass", kOptional, {1e-3, 1e4, "kg"})}},
       {"ball.move",
        BallMove{},
@@ -306,12 +314,19 @@ const std::vector<Operation>& operations() {
        ClothUnpin{},
        {field<&ClothUnpin::cloth>("cloth", kRequired, kId), field<&ClothUnpin::u>("u", kRequired, kShare),
         field<&ClothUnpin::v>("v", kRequired, kShare)}},
+      {"effect.set",
+       EffectSet{},
+       {field<&EffectSet::effect>("effect", kRequired, kCharacters), field<&EffectSet::on>("on", kRequired)}},
       {"wind.set",
        WindSet{},
        {field<&WindSet::direction>("direction", kRequired, {-1e6, 1e6}),
         field<&WindSet::speed>("speed", kRequired, {0, 100, "m/s"}),
         field<&WindSet::gusts>("gusts", kOptional, {0, 1})},
        normalise_wind},
+      {"wind.zone.set",
+       WindZoneSet{},
+       {field<&WindZoneSet::zone>("zone", kRequired, kId),
+        field<&WindZoneSet::velocity>("velocity", kRequired, {-100, 100, "m/s"})}},
       {"quality",
        Quality{},
        {field<&Quality::max_error>("max_error", kOptional, {1e-6, 1}),

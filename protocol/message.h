@@ -44,11 +44,13 @@ struct Camera {
 struct Ack {
   std::uint32_t frame = 0;
 };
+/// A ball's, "kinematic" or "dynamic" on the wire.
+enum class Motion { kinematic, dynamic };
 struct BallAdd {
   Vector position{};
   double radius = 0;
   Vector velocity{};
-  bool dynamic = false;
+  Motion motion = Motion::kinematic;
   double mass = 1;
 };
 struct BallMove {
@@ -88,10 +90,18 @@ struct ClothUnpin {
   std::uint32_t cloth = 0;
   double u = 0, v = 0;
 };
+struct EffectSet {
+  std::string effect;
+  bool on = true;
+};
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
   std::optional<double> gusts = {};  ///< intensity; without it that stays
+};
+struct WindZoneSet {
+  std::uint32_t zone = 0;  ///< its place in the wind's zones
+  Vector velocity{};
 };
 /// At most one of the two; without either the scene's own again.
 struct Quality {
@@ -109,9 +119,10 @@ struct Ping {
   double t = 0;
 };
 
-using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
-                             BallRemove, ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
-                             WindSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+using Command =
+    std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
+                 ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin, EffectSet, WindSet,
+                 WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

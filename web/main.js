@@ -2,6 +2,7 @@ import {BallHand} from './ball_hand.js';
 import {CameraRig, EyeReporter} from './camera_rig.js';
 import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
+import {EffectsPanel} from './effects_panel.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
 import {Link} from './link.js';
@@ -9,6 +10,7 @@ import {Panel} from './panel.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Show} from './show.js';
 import {Stage} from './stage.js';
+import {ZonesPanel} from './zones_panel.js';
 
 const kBallRadius = 0.2;
 const kButtonThrow = 7;  // m/s
@@ -87,6 +89,20 @@ function start(settings) {
     askCost: () => command({op: 'cost'}),
     setQuality: (wish) => command({op: 'quality', ...wish}),
   });
+  const effects = new EffectsPanel({
+    setEffect: async (effect, on) => {
+      if (!(await command({op: 'effect.set', effect, on}))) effects.setOff(effectsOff);
+    },
+  });
+  const zones = new ZonesPanel({
+    setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
+    showZones: (on) => show.setZonesShown(on),
+  });
+  let effectsOff = [];
+  const setEffectsOff = (off) => {
+    effectsOff = off;
+    effects.setOff(off);
+  };
   panel.setWireframe(settings.wireframe);
   // Before the ball's hand: it takes what Shift and the tool make its own, and leaves the rest.
   const clothHand = new ClothHand(stage, show, {
@@ -130,6 +146,8 @@ function start(settings) {
     panel.setLive(detail.state === 'open');
     clothHand.forget();
     cost.setLive(detail.state === 'open');
+    effects.setLive(detail.state === 'open');
+    zones.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
@@ -171,6 +189,9 @@ function start(settings) {
       panel.setTitle(message.title);
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
+      zones.begin(show.wind);
+      effects.begin(message.effects);
+      setEffectsOff(message.effects_off ?? []);
       tellNothing();
       cost.begin();
     },
@@ -178,10 +199,18 @@ function start(settings) {
       if (message.wind) {
         show.setWind(message.wind);
         panel.setWind(show.wind, show.hasWind);
+        if (message.kind === 'reset') zones.begin(show.wind);
+        else zones.show(show.wind);
       }
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
       if (message.kind === 'cloth.pin' || message.kind === 'cloth.unpin') show.setPins(message.cloth, message.pins);
+      if (message.kind === 'effect') {
+        setEffectsOff(message.effects_off);
+        cost.begin();  // what was measured was another composition
+      }
       if (message.kind === 'reset') {
+        if (effectsOff.length > 0) cost.begin();
+        setEffectsOff([]);
         tellNothing();
         clothHand.forget();
         message.pins?.forEach((pins, cloth) => show.setPins(cloth, pins));
@@ -256,7 +285,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, hand, clothHand, counts, latest});
+  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -269,7 +298,7 @@ function aimed(from, to, speed) {
 }
 
 /** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, hand, clothHand, counts, latest}) {
+function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff}) {
   window.weft = {
     get stats() {
       return {
@@ -284,6 +313,7 @@ function publishHook({link, show, rig, stage, hand, clothHand, counts, latest}) 
         lastFrame: show.timeline.newest?.stamp ?? null,
         wind: show.wind,
         hand: clothHand.held,
+        effectsOff: effectsOff(),
         pins: Object.fromEntries(show.marks.held),
         server: latest.stats,
       };

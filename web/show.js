@@ -6,6 +6,7 @@ import {ObstaclesView} from './obstacles_view.js';
 import {Timeline} from './timeline.js';
 import {weaveTextures} from './weave.js';
 import {WindArrow} from './wind_arrow.js';
+import {ZonesView} from './zones_view.js';
 
 const kWindEffects = ['paper_wind', 'aerodynamics'];
 const kFabric = {warp: [44, 88, 148], weft: [70, 116, 176], stripe: [246, 236, 214]};
@@ -26,12 +27,13 @@ export class Show {
     this.balls = new BallsView();
     this.obstacles = new ObstaclesView();
     this.marks = new MarksView();
+    this.zones = new ZonesView();
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
     this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
     this.materials.fabric.polygonOffset = this.wireframe;
-    stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group);
+    stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group, this.zones.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
     this.description = null;
@@ -68,7 +70,13 @@ export class Show {
   setWind(wind) {
     if (!wind) return;
     this.wind = wind;
+    this.zones.show(wind.zones ?? []);
     this.arrow.set(wind.direction, this.hasWind ? wind.speed : 0);
+    this.stage.changed = true;
+  }
+
+  setZonesShown(on) {
+    this.zones.group.visible = on;
     this.stage.changed = true;
   }
 

@@ -88,7 +88,7 @@ class Conversation {
     if (!options_.eye.empty()) command(protocol::Camera{std::nullopt, vector_of(options_.eye)});
     if (!options_.wind.empty()) command(protocol::WindSet{vector_of(options_.wind), options_.wind[3]});
     if (!options_.ball.empty()) {
-      command(protocol::BallAdd{vector_of(options_.ball), options_.ball[3], {}, false, 1});
+      command(protocol::BallAdd{.position = vector_of(options_.ball), .radius = options_.ball[3]});
       if (!options_.velocity.empty()) throws_when_added_ = last_id_;
     }
     while (!finished()) {

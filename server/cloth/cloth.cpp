@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -69,15 +70,10 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
                    const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed)
     : description_(description),
       total_mass_(description.material.density * description.size.x() * description.size.y()),
-      effects_(make_effects<Real>(effects)),
       integrator_(make_integrator<Real>(integrator)),
       guard_(integrator),
       sleep_(sleep_speed) {
-  for (const EffectDescription& effect : effects) {
-    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
-    bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
-    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
-  }
+  compose(effects);
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
   Particles<Real> particles(description_.base_cells.at(level));
   place(description_, particles);
@@ -86,6 +82,23 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
   enter_level(level, std::move(particles));
   perturb(description_, seed, particles_);
   hand_to_guard();
+}
+
+template <class Real>
+void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
+  auto composed = make_effects<Real>(effects);
+  const std::size_t count = composed.size();
+  const auto added = effects_.begin() + static_cast<std::ptrdiff_t>(composed_);
+  std::move(added, effects_.end(), std::back_inserter(composed));
+  effects_ = std::move(composed);
+  composed_ = count;
+  damping_time_ = 0;
+  bends_plate_ = limits_strain_ = false;
+  for (const EffectDescription& effect : effects) {
+    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
+    bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
+    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
+  }
 }
 
 template <class Real>
@@ -151,6 +164,7 @@ template <class Real>
 void Cloth<Real>::make_springs() {
   springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
                            particles_.grid(), damping_time_, limits_strain_);
+  plate_.reset();
   if (bends_plate_)
     plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass);
 }
@@ -159,6 +173,17 @@ template <class Real>
 void Cloth<Real>::set_integrator(const IntegratorDescription& integrator) {
   integrator_ = make_integrator<Real>(integrator);
   guard_.set_integrator(integrator);
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
+  guard_.repair(particles_);
+  compose(effects);
+  make_springs();
+  node_air_.reset();
+  integrator_ = make_integrator<Real>(guard_.method());  // without the arrays of what is gone
+  hand_to_guard();
   wake();
 }
 

@@ -38,6 +38,9 @@ class Cloth {
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
   void set_integrator(const IntegratorDescription& integrator);
+  /// Is composed of these effects, as if made with them; what was added besides stays. The cloth wakes, and
+  /// its integrator knows nothing of the steps before.
+  void set_effects(const std::vector<EffectDescription>& effects);
   /// A hand takes hold; the cloth wakes. Ids are the caller's and differ.
   void grab(const Grab& grab);
   /// False if there is no such grab.
@@ -82,6 +85,8 @@ class Cloth {
   void push_balls(Colliders& colliders) const;
 
  private:
+  /// Takes what the effects say to itself; their objects are the caller's to make.
+  void compose(const std::vector<EffectDescription>& effects);
   void enter_level(int level, Particles<Real> particles);
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
@@ -102,13 +107,14 @@ class Cloth {
   Pins<Real> pins_;
   double time_ = 0;             ///< s, at the end of the last step that was made
   double damping_time_ = 0;     ///< s, of the springs (StrainDampingEffect)
-  bool bends_plate_ = false;    ///< PlateBendingEffect is listed
-  bool limits_strain_ = false;  ///< StrainLimitEffect is listed
+  bool bends_plate_ = false;    ///< PlateBendingEffect is there
+  bool limits_strain_ = false;  ///< StrainLimitEffect is there
   Springs<Real> springs_;
   std::optional<Plate<Real>> plate_;
-  std::vector<std::unique_ptr<Effect<Real>>> effects_;
-  Grabs<Real>* grabs_ = nullptr;                  ///< one of effects_ as long as something is held
-  std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
+  std::vector<std::unique_ptr<Effect<Real>>> effects_;  ///< the description's, then what was added
+  std::size_t composed_ = 0;                            ///< of effects_, the description's
+  Grabs<Real>* grabs_ = nullptr;                        ///< one of effects_ as long as something is held
+  std::unique_ptr<Integrator<Real>> integrator_;        ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
   std::vector<Solid> solids_;  ///< as the cloth moves them in the step

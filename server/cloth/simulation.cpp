@@ -34,16 +34,10 @@ Simulation<Real>::Simulation(SimulationDescription description) : description_(s
 
 template <class Real>
 void Simulation<Real>::reset() {
-  gravity_ = total_gravity(description_.effects);
   air_ = Air(description_.wind, description_.seed);
   colliders_ = Colliders(description_.balls, description_.obstacles);
   cloths_ = make_cloths<Real>(description_);
-  layers_.reset();
-  for (const EffectDescription& effect : description_.effects) {
-    if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
-      layers_ = std::make_unique<Layers<Real>>(*contact);
-    }
-  }
+  compose(description_.effects);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;
   next_grab_ = 1;
@@ -54,6 +48,34 @@ void Simulation<Real>::reset() {
 template <class Real>
 void Simulation<Real>::set_integrator(const IntegratorDescription& integrator) {
   for (Cloth<Real>& cloth : cloths_) cloth.set_integrator(integrator);
+}
+
+template <class Real>
+void Simulation<Real>::set_wind_zone(std::size_t zone, const Vec3& velocity) {
+  Wind changed = wind();
+  changed.zones[zone].velocity = velocity;
+  set_wind(changed);
+  for (Cloth<Real>& cloth : cloths_) cloth.wake();  // by the wind outside of zones it would not
+}
+
+template <class Real>
+void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects) {
+  for (Cloth<Real>& cloth : cloths_) {
+    cloth.set_layers(nullptr);
+    cloth.set_effects(effects);
+  }
+  compose(effects);
+}
+
+template <class Real>
+void Simulation<Real>::compose(const std::vector<EffectDescription>& effects) {
+  gravity_ = total_gravity(effects);
+  layers_.reset();
+  for (const EffectDescription& effect : effects) {
+    if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
+      layers_ = std::make_unique<Layers<Real>>(*contact);
+    }
+  }
 }
 
 template <class Real>

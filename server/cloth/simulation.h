@@ -62,9 +62,14 @@ class Simulation {
   // Commands: each takes effect in the next step.
   void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
   void set_wind(const Wind& wind) { air_.change(wind, time()); }
+  /// How the air moves in one of the wind's zones, m/s.
+  void set_wind_zone(std::size_t zone, const Vec3& velocity);
   /// Every cloth is stepped by `integrator` from the next step on; until reset(), which goes back to the
   /// description's.
   void set_integrator(const IntegratorDescription& integrator);
+  /// Only these effects are simulated from the next step on, in every cloth and for the balls; until reset(),
+  /// which goes back to the description's.
+  void set_effects(const std::vector<EffectDescription>& effects);
   BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
   bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }
@@ -87,6 +92,8 @@ class Simulation {
   void reset();
 
  private:
+  /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
+  void compose(const std::vector<EffectDescription>& effects);
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
   /// All cloths through the step, as it is for each of them alone.

@@ -38,7 +38,7 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.visit = visit;
   seat.distance = scene_.camera_distance;
   look(seat);
-  seat.viewer->send(visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_}, seat)));
+  seat.viewer->send(visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_}, seat)));
   for (const GuardLog::Notice& notice : guard_.standing())
     seat.viewer->send(visit, make_text(protocol::notice_text(notice.code, notice.message)));
   seats_.push_back(std::move(seat));
@@ -91,6 +91,23 @@ void LiveScene::request_levels() {
 
 void LiveScene::use_chosen_integrator() {
   if (const auto integrator = quality_.take_change()) simulation_.set_integrator(*integrator);
+}
+
+SimulationDescription LiveScene::studied() const {
+  SimulationDescription description = scene_.simulation;
+  std::erase_if(description.effects, [&](const EffectDescription& effect) {
+    return std::find(effects_off_.begin(), effects_off_.end(), name_of(effect)) != effects_off_.end();
+  });
+  return description;
+}
+
+void LiveScene::recompose() {
+  simulation_.set_effects(studied().effects);
+  ++study_number_;
+  quality_.outdated();
+  const auto waits = [](const Seat& seat) { return seat.wants_curve; };
+  if (std::any_of(seats_.begin(), seats_.end(), waits)) quality_.ask();
+  use_chosen_integrator();
 }
 
 void LiveScene::take_study(StudyOutcome outcome) {

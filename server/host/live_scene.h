@@ -22,9 +22,9 @@ namespace weft::host {
 using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
                  protocol::BallRemove, protocol::ObstacleMove, protocol::ClothGrab, protocol::GrabMove,
-                 protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin, protocol::WindSet,
-                 protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset,
-                 protocol::Step>;
+                 protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet,
+                 protocol::WindSet, protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause,
+                 protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -54,7 +54,11 @@ class LiveScene {
   void step();
   /// Somebody wishes for a quality or asks for the cost, which have to be studied first.
   bool wants_study() const { return quality_.wants_study() && !seats_.empty(); }
-  /// What that study found.
+  /// What is to be studied: the scene, with the effects that are on.
+  SimulationDescription studied() const;
+  /// Changes when what is to be studied does: a study of something else is of no use.
+  std::uint64_t study_number() const { return study_number_; }
+  /// What a study found.
   void take_study(StudyOutcome outcome);
   /// Whether the clock runs behind; viewers are told when it changes.
   void set_slow(bool slow);
@@ -88,7 +92,9 @@ class LiveScene {
   Outcome carry_out(const protocol::GrabRelease& release, Seat& seat);
   Outcome carry_out(const protocol::ClothPin& pin, Seat& seat);
   Outcome carry_out(const protocol::ClothUnpin& unpin, Seat& seat);
+  Outcome carry_out(const protocol::EffectSet& effect, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
+  Outcome carry_out(const protocol::WindZoneSet& set, Seat& seat);
   Outcome carry_out(const protocol::Quality& quality, Seat& seat);
   Outcome carry_out(const protocol::Cost& cost, Seat& seat);
   Outcome carry_out(const protocol::Pause& pause, Seat& seat);
@@ -100,6 +106,8 @@ class LiveScene {
   void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
   void request_levels();
   void use_chosen_integrator();
+  /// The effects that are not off, now simulated.
+  void recompose();
   void find_centres();
   void set_paused(bool paused);
   void tell_guard_events();
@@ -120,9 +128,11 @@ class LiveScene {
   GuardLog guard_;
   std::vector<std::string> guard_texts_;
   std::vector<Seat> seats_;
-  std::vector<int> finest_sendable_;  ///< by cloth
-  std::vector<Vec3> centres_;         ///< of the cloths
-  int frame_stride_ = 1;              ///< steps from one frame to the next
+  std::vector<int> finest_sendable_;      ///< by cloth
+  std::vector<Vec3> centres_;             ///< of the cloths
+  std::vector<std::string> effects_off_;  ///< of the scene's, by name, in its order
+  std::uint64_t study_number_ = 0;
+  int frame_stride_ = 1;  ///< steps from one frame to the next
   std::uint32_t epoch_ = 1;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
   int waiting_steps_ = 0;           ///< asked for by `step`, not made yet

@@ -76,7 +76,8 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
   ball.position = to_vec3(add.position);
   ball.radius = add.radius;
   ball.velocity = to_vec3(add.velocity);
-  ball.motion = add.dynamic ? BallDescription::Motion::dynamic : BallDescription::Motion::kinematic;
+  ball.motion = add.motion == protocol::Motion::dynamic ? BallDescription::Motion::dynamic
+                                                        : BallDescription::Motion::kinematic;
   ball.mass = add.mass;
   const BallId id = simulation_.add_ball(ball);
   balls_changed("ball.add", id);
@@ -173,6 +174,29 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&
   return json::object();
 }
 
+LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
+  std::vector<std::string> names;  // the scene's, each once
+  for (const EffectDescription& effect : scene_.simulation.effects) {
+    if (std::find(names.begin(), names.end(), name_of(effect)) == names.end()) {
+      names.emplace_back(name_of(effect));
+    }
+  }
+  if (std::find(names.begin(), names.end(), set.effect) == names.end()) {
+    return refused("unavailable", "/effect", "the scene has no effect \"" + set.effect + "\"");
+  }
+  const auto off = std::find(effects_off_.begin(), effects_off_.end(), set.effect);
+  if ((off == effects_off_.end()) == set.on) return json::object();
+  std::erase_if(names, [&](const std::string& name) {
+    const bool was_off = std::find(effects_off_.begin(), effects_off_.end(), name) != effects_off_.end();
+    return name == set.effect ? set.on : !was_off;
+  });
+  effects_off_ = std::move(names);
+  recompose();
+  tell_event("effect", takes_effect_,
+             {{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}});
+  return json::object();
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (!has_wind(scene_.simulation)) {
     return refused("unavailable", "", "the scene has no wind effect (paper_wind or aerodynamics)");
@@ -182,6 +206,16 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   changed.speed = wind.speed;
   if (wind.gusts) changed.gusts.intensity = *wind.gusts;
   simulation_.set_wind(changed);
+  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::WindZoneSet& set, Seat&) {
+  if (set.zone >= simulation_.wind().zones.size()) {
+    return refused("not_found", "/zone",
+                   "/zone is " + std::to_string(set.zone) + "; the wind has no such zone");
+  }
+  simulation_.set_wind_zone(set.zone, to_vec3(set.velocity));
   tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
   return json::object();
 }
@@ -228,6 +262,10 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   simulation_.reset();
+  if (!effects_off_.empty()) {
+    effects_off_.clear();
+    recompose();
+  }
   for (Seat& seat : seats_) seat.grabs.clear();
   quality_.restarted();
   guard_ = {};

@@ -45,10 +45,26 @@ json obstacle_json(const ObstacleDescription& obstacle) {
   return message;
 }
 
+json zone_json(const WindZone& zone) {
+  json message{{"position", vector_json(zone.position)},
+               {"velocity", vector_json(zone.velocity)},
+               {"edge", zone.edge}};
+  if (const auto* box = std::get_if<BoxZone>(&zone.shape)) {
+    message["shape"] = box->kName;
+    message["size"] = vector_json(box->size);
+    message["quaternion"] = quaternion_json(box->orientation);
+  } else {
+    const auto& sphere = std::get<SphereZone>(zone.shape);
+    message["shape"] = sphere.kName;
+    message["radius"] = sphere.radius;
+  }
+  return message;
+}
+
 json effects_json(const SimulationDescription& description) {
   json effects = json::array();
   for (const EffectDescription& effect : description.effects) {
-    effects.push_back(std::visit([](const auto& e) { return e.kName; }, effect));
+    effects.push_back(name_of(effect));
   }
   return effects;
 }
@@ -63,6 +79,7 @@ const char* state_of(const Cloth<float>& cloth) {
 json wind_json(const Wind& wind) {
   json message{{"direction", vector_json(wind.direction)}, {"speed", wind.speed}};
   if (wind.gusts.intensity > 0) message["gusts"] = wind.gusts.intensity;
+  for (const WindZone& zone : wind.zones) message["zones"].push_back(zone_json(zone));
   return message;
 }
 
@@ -116,6 +133,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
         {"eye", vector_json(scene.camera_eye)},
         {"target", vector_json(scene.camera_target)},
         {"level", seat.levels}}}};
+  if (!state.effects_off.empty()) message["effects_off"] = state.effects_off;
   for (const ObstacleDescription& obstacle : description.obstacles) {
     message["obstacles"].push_back(obstacle_json(obstacle));
   }

@@ -2,6 +2,7 @@
 /// The host's own messages of PROTOCOL.md section 3, as JSON.
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cloth/simulation.h"
 #include "host/seat.h"
@@ -13,6 +14,7 @@ namespace weft::host {
 struct SceneState {
   std::uint32_t epoch = 1;
   bool paused = false;
+  std::vector<std::string> effects_off;
 };
 
 nlohmann::json wind_json(const Wind& wind);

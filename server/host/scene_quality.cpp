@@ -33,7 +33,11 @@ json level_json(const study::LevelChoices& level) {
 }  // namespace
 
 SceneQuality::SceneQuality(const scene::Quality& own, const IntegratorDescription& integrator)
-    : own_(own), own_integrator_(integrator), wish_(own), in_use_(label(integrator)) {}
+    : own_(own),
+      own_integrator_(integrator),
+      own_label_(label(integrator)),
+      wish_(own),
+      in_use_(own_label_) {}
 
 void SceneQuality::wish(const scene::Quality& wish) {
   wish_ = wish.asks() ? wish : own_;
@@ -49,6 +53,11 @@ void SceneQuality::studied(StudyOutcome outcome) {
   keeper_->wish(wish_);
 }
 
+void SceneQuality::outdated() {
+  asked_ = studied_ = false;
+  keeper_.reset();
+}
+
 void SceneQuality::want_level(int level) {
   wanted_level_ = level;
   if (keeper_) keeper_->want_level(level);
@@ -59,15 +68,15 @@ void SceneQuality::stepped(double milliseconds) {
 }
 
 std::optional<IntegratorDescription> SceneQuality::take_change() {
-  if (!keeper_) return std::nullopt;
-  const auto& choice = keeper_->choice();
-  const IntegratorDescription& wanted = choice ? choice->integrator : own_integrator_;
+  if (!keeper_ && in_use_ == own_label_) return std::nullopt;
+  const bool chosen = keeper_ && keeper_->choice();
+  const IntegratorDescription& wanted = chosen ? keeper_->choice()->integrator : own_integrator_;
   if (label(wanted) == in_use_) return std::nullopt;
   in_use_ = label(wanted);
   return wanted;
 }
 
-void SceneQuality::restarted() { in_use_ = label(own_integrator_); }
+void SceneQuality::restarted() { in_use_ = own_label_; }
 
 json SceneQuality::wish_json() const {
   json wish = json::object();

@@ -28,6 +28,9 @@ class SceneQuality {
   /// A study is needed and its outcome is not there.
   bool wants_study() const { return (asked_ || wish_.asks()) && !studied_; }
   void studied(StudyOutcome outcome);
+  /// The scene is another: what was studied is forgotten, and studied anew if a wish needs it; who asked
+  /// may ask again. Until then it is stepped by its own integrator.
+  void outdated();
   bool has_outcome() const { return studied_; }
 
   // See QualityKeeper.
@@ -51,6 +54,7 @@ class SceneQuality {
  private:
   const scene::Quality own_;
   const IntegratorDescription own_integrator_;
+  const std::string own_label_;
   scene::Quality wish_;
   bool asked_ = false;
   bool studied_ = false;

@@ -90,8 +90,8 @@ std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token&
 void SceneRunner::carry_out(Task& task) {
   if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
     live_.apply(task.viewer, task.visit, *request);
-  } else if (auto* outcome = std::get_if<StudyOutcome>(&task.what)) {
-    live_.take_study(std::move(*outcome));
+  } else if (auto* studied = std::get_if<Studied>(&task.what)) {
+    if (studied->number == live_.study_number()) live_.take_study(std::move(studied->outcome));
   } else if (std::holds_alternative<Join>(task.what)) {
     if (live_.empty()) stats_due_ = Clock::now();
     live_.add_viewer(task.viewer, task.visit);
@@ -119,9 +119,12 @@ void SceneRunner::step_if_due() {
 }
 
 void SceneRunner::study_if_wanted() {
+  const std::uint64_t number = live_.study_number();
+  if (study_ && study_number_ != number) study_.reset();
   if (study_ || !live_.wants_study()) return;
-  study_.emplace(live_.simulation().description(), [this](StudyOutcome outcome) {
-    post({nullptr, 0, std::move(outcome)});
+  study_number_ = number;
+  study_.emplace(live_.studied(), [this, number](StudyOutcome outcome) {
+    post({nullptr, 0, Studied{number, std::move(outcome)}});
   });
 }
 

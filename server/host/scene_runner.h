@@ -57,10 +57,14 @@ class SceneRunner {
  private:
   struct Join {};
   struct Leave {};
+  struct Studied {
+    std::uint64_t number;  ///< LiveScene::study_number()
+    StudyOutcome outcome;
+  };
   struct Task {
     std::shared_ptr<Viewer> viewer;
     std::uint64_t visit;
-    std::variant<Join, Leave, SceneRequest, StudyOutcome> what;
+    std::variant<Join, Leave, SceneRequest, Studied> what;
   };
 
   void run(const std::stop_token& stop);
@@ -90,6 +94,7 @@ class SceneRunner {
   StepClock::TimePoint stats_due_{};
   bool running_ = false;
   std::optional<StudyThread> study_;  ///< from when it was first wanted; given up with the runner
+  std::uint64_t study_number_ = 0;    ///< of what it studies
 
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -115,8 +115,10 @@ test('each method sends its operation', async () => {
   await client.release(3);
   await client.pin(0, 0.5, 1);
   await client.unpin(0, 0.5, 1);
+  await client.setEffect('gravity', false);
   await client.setWind([0, 0, -1], 3);
   await client.setWind([0, 0, -1], 3, { gusts: 0.25 });
+  await client.setWindZone(1, [0, 0, -2]);
   await client.setQuality({ maxError: 0.01 });
   await client.setQuality({ maxMs: 2 });
   await client.setQuality();
@@ -137,7 +139,8 @@ test('each method sends its operation', async () => {
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
     { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
     { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
-    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
+    { op: 'effect.set', effect: 'gravity', on: false },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
     { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);
   assert.deepEqual(server.received.map(({ id }) => id), sent.map((_, i) => i + 1), 'ids are counted');

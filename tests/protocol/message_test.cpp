@@ -93,7 +93,7 @@ TEST(Message, ValuesReachTheCommand) {
   EXPECT_EQ(ball.position, (Vector{1, 2, 3}));
   EXPECT_EQ(ball.radius, 0.5);
   EXPECT_EQ(ball.velocity, (Vector{4, 5, 6}));
-  EXPECT_TRUE(ball.dynamic);
+  EXPECT_EQ(ball.motion, Motion::dynamic);
   EXPECT_EQ(ball.mass, 7);
 }
 

@@ -57,5 +57,5 @@ test('the AsyncAPI document has every operation and message of the schemas', () 
   const schemas = Object.values(asyncapi.components.messages).map(({ payload }) => payload.schema?.$ref).filter(Boolean);
   const wanted = [clientSchema, serverSchema].flatMap((schema) => schema.oneOf.map(({ $ref }) => `./${schema.$id}${$ref}`));
   assert.deepEqual(schemas.sort(), wanted.sort());
-  for (const op of clientSchema.properties.op.enum) assert.ok(asyncapi.operations[op.replace('.', '_')], op);
+  for (const op of clientSchema.properties.op.enum) assert.ok(asyncapi.operations[op.replaceAll('.', '_')], op);
 });

@@ -157,8 +157,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.release(3)
             await scene.pin(0, 0.5, 1)
             await scene.unpin(0, 0.5, 1)
+            await scene.set_effect("gravity", False)
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_wind([0, 0, -1], 3, gusts=0.25)
+            await scene.set_wind_zone(1, [0, 0, -2])
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
             await scene.set_quality()
@@ -181,8 +183,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]},
             {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
             {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
-            {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
+            {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "effect.set", "effect": "gravity", "on": False},
+            {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},
+            {"op": "wind.zone.set", "zone": 1, "velocity": [0, 0, -2]},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},
             {"op": "scene.join", "scene": "curtain"}])

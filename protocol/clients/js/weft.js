@@ -33,6 +33,7 @@ export const SUBPROTOCOL = 'weft.v1';
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
  * @typedef {{shape: 'capsule', position: Vector, radius: number, length: number, quaternion: [number, number, number, number]}} Capsule w, x, y, z
  * @typedef {Plane|Box|Capsule} Obstacle in `scene`; skip shapes that you do not know
+ * @typedef {{shape: 'box'|'sphere', position: Vector, size?: Vector, radius?: number, quaternion?: [number, number, number, number], velocity: Vector, edge: number}} WindZone
  * @typedef {{obstacle: number, position: Vector, quaternion: [number, number, number, number]}} MovedObstacle its place in `scene`; w, x, y, z
  * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[], obstacles: MovedObstacle[]}} Frame obstacles: those that are not where `scene` says
  */
@@ -424,11 +425,24 @@ export class WeftClient {
   }
 
   /**
+   * Takes one of the scene's effects away, or brings it back, for all viewers.
+   * @param {string} effect one of the scene's `effects` @param {boolean} on
+   */
+  setEffect(effect, on) {
+    return this.send('effect.set', { effect, on });
+  }
+
+  /**
    * @param {Vector} direction any length but zero @param {number} speed m/s
    * @param {{gusts?: number}} [change] how strong gusts are, 0 to 1: their root mean square over the speed; without it as they were
    */
   setWind(direction, speed, { gusts } = {}) {
     return this.send('wind.set', { direction, speed, gusts });
+  }
+
+  /** How the air moves in one of the wind's zones. @param {number} zone its place in the wind's `zones` @param {Vector} velocity m/s */
+  setWindZone(zone, velocity) {
+    return this.send('wind.zone.set', { zone, velocity });
   }
 
   /**

@@ -441,10 +441,18 @@ class Client:
         """Takes away the pin that holds (u, v), or the nearest one."""
         return await self.send("cloth.unpin", cloth=cloth, u=u, v=v)
 
+    async def set_effect(self, effect: str, on: bool) -> dict:
+        """Takes one of the scene's effects away, or brings it back, for all viewers."""
+        return await self.send("effect.set", effect=effect, on=on)
+
     async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None) -> dict:
         """Direction of any length but zero; speed in m/s; gusts from 0 to 1, their root mean square over the speed (None: as
         they were)."""
         return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts)
+
+    async def set_wind_zone(self, zone: int, velocity) -> dict:
+        """How the air moves in one of the wind's zones, m/s; `zone` is its place in the wind's `zones`."""
+        return await self.send("wind.zone.set", zone=zone, velocity=list(velocity))
 
     async def set_quality(self, *, max_error: typing.Optional[float] = None, max_ms: typing.Optional[float] = None) -> dict:
         """Holds the scene to an error (share of the cloth's size) or to a time (ms a step), for all viewers; with neither it is

@@ -46,6 +46,10 @@ std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<Effect
   return effects;
 }
 
+const char* name_of(const EffectDescription& description) {
+  return std::visit([](const auto& effect) { return effect.kName; }, description);
+}
+
 Vec3 total_gravity(const std::vector<EffectDescription>& descriptions) {
   Vec3 sum(0, 0, 0);
   for (const EffectDescription& description : descriptions) {

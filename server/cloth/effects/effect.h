@@ -65,6 +65,9 @@ extern template class Effect<double>;
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
 
+/// As in scene files: "gravity".
+const char* name_of(const EffectDescription& description);
+
 /// The scene's gravity, m/s2: the sum of its gravity effects, zero without one. Balls fall by it too.
 Vec3 total_gravity(const std::vector<EffectDescription>& descriptions);
 

@@ -161,7 +161,9 @@ TEST(SleepTest, GustsAndTurbulenceKeepItAwakeAZoneDoesNot) {
   EXPECT_FALSE(asleep(turbulent));
   scene.wind.turbulence.intensity = 0;
   scene.wind.zones = {{SphereZone{0.5}, {0, 0, 0}, {0, 3, 0}, 0.1}};
-  sleeping<float>(scene);
+  auto simulation = sleeping<float>(scene);
+  simulation.set_wind_zone(0, {0, 4, 0});
+  EXPECT_FALSE(asleep(simulation));
 }
 
 TEST(SleepTest, AnotherLevelOrIntegratorWakesIt) {

@@ -64,6 +64,57 @@ TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
   EXPECT_FALSE(other.last("event", "wind").at("wind").contains("gusts"));
 }
 
+scene::Scene with_zones() {
+  scene::Scene scene = hung_cloth();
+  WindZone box, sphere;
+  box.shape = BoxZone{.size = {1, 2, 3}};
+  box.position = {0, 1, 0};
+  sphere.shape = SphereZone{.radius = 2};
+  sphere.velocity = {0, 0, 3};
+  scene.simulation.wind.zones = {box, sphere};
+  return scene;
+}
+
+class ZoneCommands : public Commands {
+ protected:
+  ZoneCommands() : Commands(with_zones()) {}
+};
+
+TEST_F(ZoneCommands, SetTheAirOfOneAndTellAll) {
+  const json zones = reader.last("scene").at("wind").at("zones");
+  EXPECT_EQ(zones.at(0), json({{"shape", "box"},
+                               {"position", {0.0, 1.0, 0.0}},
+                               {"size", {1.0, 2.0, 3.0}},
+                               {"quaternion", {1.0, 0.0, 0.0, 0.0}},
+                               {"velocity", {0.0, 0.0, 0.0}},
+                               {"edge", 0.1}}));
+  EXPECT_EQ(zones.at(1), json({{"shape", "sphere"},
+                               {"position", {0.0, 0.0, 0.0}},
+                               {"radius", 2.0},
+                               {"velocity", {0.0, 0.0, 3.0}},
+                               {"edge", 0.1}}));
+  EXPECT_EQ(command(WindZoneSet{1, {0, 5, 0}}).at("op"), "ok");
+  EXPECT_EQ(other.last("event", "wind").at("wind").at("zones").at(0), zones.at(0));
+  EXPECT_EQ(other.last("event", "wind").at("wind").at("zones").at(1).at("velocity"), json({0.0, 5.0, 0.0}));
+  EXPECT_EQ(live.simulation().wind().zones[1].velocity, Vec3(0, 5, 0));
+  EXPECT_EQ(live.simulation().wind().zones[0].velocity, Vec3(0, 0, 0));
+  const json error = command(WindZoneSet{2, {0, 5, 0}});
+  EXPECT_EQ(error.at("code"), "not_found");
+  EXPECT_EQ(error.at("message"), "/zone is 2; the wind has no such zone");
+  command(Reset{});
+  EXPECT_EQ(other.last("event", "reset").at("wind").at("zones"), zones);
+}
+
+TEST_F(ZoneCommands, AZoneBlowsWhatIsInIt) {
+  // All of the cloth lies in the sphere; set to blow as the wind did it hangs as it does without a zone.
+  LiveScene plain(hung_cloth(), Limits{});
+  Reader alone;
+  plain.add_viewer(alone.viewer, alone.viewer->enter());
+  for (int i = 0; i < 20; ++i) plain.step();
+  steps(20);
+  EXPECT_GT(live.simulation().centre(0).z(), plain.simulation().centre(0).z() + 0.01);  // the other way
+}
+
 TEST_F(Commands, AWindThatIsSetKeepsTheScenesTurbulenceAndZones) {
   scene::Scene scene = hung_cloth();
   scene.simulation.wind.turbulence = {0.3, 0.7};
@@ -90,7 +141,7 @@ TEST_F(Commands, WithoutAnIdOnlyErrorsAreAnswered) {
 }
 
 TEST_F(Commands, BallsAreAddedMovedThrownAndRemoved) {
-  const json added = command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  const json added = command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1});
   const int ball = added.at("ball");
   EXPECT_EQ(other.last("event", "ball.add").at("ball"), ball);
   EXPECT_EQ(other.last("event", "ball.add").at("balls").at(0).at("radius"), 0.25);
@@ -127,7 +178,8 @@ TEST_F(ObstacleCommands, MoveThemAndFramesTellOfThoseThatMoved) {
   steps(1);
   EXPECT_TRUE(reader.frames.back().obstacles.empty());
   EXPECT_EQ(command(ObstacleMove{1, {0, 6, 0}, Turn{0, 1, 0, 0}}).at("op"), "ok");
-  EXPECT_EQ(command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1}).at("op"), "ok");  // both kinds of list
+  EXPECT_EQ(command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1}).at("op"),
+            "ok");  // both kinds of list
   steps(1);
   const FrameObstacle moved{1, {0, 6, 0}, {0, 1, 0, 0}};
   ASSERT_EQ(reader.frames.back().obstacles.size(), 1u);
@@ -227,15 +279,15 @@ TEST_F(Commands, OnABallThatIsNotThereAreNotFound) {
 
 TEST_F(Commands, The65thBallIsRefused) {
   for (int i = 0; i < 64; ++i) {
-    ASSERT_EQ(command(BallAdd{{0, 0, 10.0 + i}, 0.1, {}, false, 1}).at("op"), "ok");
+    ASSERT_EQ(command(BallAdd{{0, 0, 10.0 + i}, 0.1, {}, Motion::kinematic, 1}).at("op"), "ok");
   }
-  const json error = command(BallAdd{{0, 0, 5}, 0.1, {}, false, 1});
+  const json error = command(BallAdd{{0, 0, 5}, 0.1, {}, Motion::kinematic, 1});
   EXPECT_EQ(error.at("code"), "limit");  // PROTOCOL.md section 6: 64 a scene
   EXPECT_EQ(live.simulation().colliders().balls().size(), 64U);
 }
 
 TEST_F(Commands, ABallThatFliesAwayIsRemovedAndTold) {
-  command(BallAdd{{0, -999.99, 0}, 0.2, {0, -200, 0}, true, 1});
+  command(BallAdd{{0, -999.99, 0}, 0.2, {0, -200, 0}, Motion::dynamic, 1});
   steps(1);  // 3.3 m a step, past 1000 m
   EXPECT_TRUE(live.simulation().colliders().balls().empty());
   EXPECT_EQ(other.last("event", "ball.remove").at("balls"), json::array());
@@ -276,7 +328,7 @@ TEST_F(Commands, StepIsRefusedWhileRunningAndBeyondItsLimit) {
 TEST_F(Commands, ResetStartsTheNextEpoch) {
   const auto start = live.simulation().cloths()[0].particles().position.y.values();
   steps(5);
-  command(BallAdd{{0, 0, 3}, 0.25, {}, false, 1});
+  command(BallAdd{{0, 0, 3}, 0.25, {}, Motion::kinematic, 1});
   command(WindSet{{1, 0, 0}, 9});
   const json ok = command(Reset{});
   EXPECT_EQ(ok.at("f"), 0);
