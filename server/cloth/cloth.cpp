@@ -76,6 +76,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
   for (const EffectDescription& effect : effects) {
     if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
     bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
+    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
   }
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
   Particles<Real> particles(description_.base_cells.at(level));
@@ -149,7 +150,7 @@ void Cloth<Real>::hand_to_guard() {
 template <class Real>
 void Cloth<Real>::make_springs() {
   springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
-                           particles_.grid(), damping_time_);
+                           particles_.grid(), damping_time_, limits_strain_);
   if (bends_plate_)
     plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass);
 }

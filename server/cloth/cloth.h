@@ -100,9 +100,10 @@ class Cloth {
   std::optional<int> pending_level_;
   Particles<Real> particles_;
   Pins<Real> pins_;
-  double time_ = 0;           ///< s, at the end of the last step that was made
-  double damping_time_ = 0;   ///< s, of the springs (StrainDampingEffect)
-  bool bends_plate_ = false;  ///< PlateBendingEffect is listed
+  double time_ = 0;             ///< s, at the end of the last step that was made
+  double damping_time_ = 0;     ///< s, of the springs (StrainDampingEffect)
+  bool bends_plate_ = false;    ///< PlateBendingEffect is listed
+  bool limits_strain_ = false;  ///< StrainLimitEffect is listed
   Springs<Real> springs_;
   std::optional<Plate<Real>> plate_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;

@@ -62,6 +62,13 @@ struct PlateBendingEffect {
   static constexpr const char* kName = "plate_bending";
 };
 
+/// Threads that are pulled straight: structural and shear springs stiffen beyond each cloth's own
+/// Material::limit, the tension going on without a jump (the bilinear springs of biphasic cloth models;
+/// Provot, Deformation constraints in a mass-spring model, 1995, holds the limit outright).
+struct StrainLimitEffect {
+  static constexpr const char* kName = "strain_limit";
+};
+
 /// Cloth does not pass through itself nor through another cloth of the scene (layers/layers.h).
 struct ClothContactEffect {
   double thickness = 0.005;  ///< kept between layers, m; finite, > 0. Held to half a cell of a level.
@@ -69,8 +76,9 @@ struct ClothContactEffect {
   static constexpr const char* kName = "cloth_contact";
 };
 
-using EffectDescription = std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect,
-                                       StrainDampingEffect, PlateBendingEffect, ClothContactEffect>;
+using EffectDescription =
+    std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect>;
 
 // --- Things in the scene ---
 

@@ -19,6 +19,18 @@ struct Rigidity {
   bool operator==(const Rigidity&) const = default;
 };
 
+/// How far the sheet stretches as its stiffness says before the threads themselves are pulled, and how much
+/// stiffer it is from there on; read by the effect strain_limit. Compressed it is as without.
+struct StrainLimit {
+  double warp = 0.05;  ///< along u, relative elongation; finite, > 0
+  double weft = 0.08;  ///< along v, the same
+  /// By how much the angle between warp and weft has changed when they lock, rad; (0, pi/2). The springs feel
+  /// it in the diagonals, at the length that unstretched threads give them then.
+  double shear = 0.3;
+  double stiffening = 20;  ///< stiffness beyond the limits, relative; finite, >= 1
+  bool operator==(const StrainLimit&) const = default;
+};
+
 /// What a cloth is made of. With Discretization::paper the three stiffnesses are Eq. 1's spring constants
 /// K(i,j) in N/m, the same at every level. With continuum they are the sheet's own, in N/m (force per width
 /// per strain), and the constants of a level follow from them (springs.h).
@@ -30,6 +42,7 @@ struct Material {
   double bending = 5;      ///< N/m, springs to the second neighbour; >= 0
   double damping = 0.1;    ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
   Rigidity rigidity = {};  ///< of the effect plate_bending, the same at every level and discretization
+  StrainLimit limit = {};  ///< of the effect strain_limit
   bool operator==(const Material&) const = default;
 };
 

@@ -41,9 +41,12 @@ Kind kind_of(const SpringFamily& family) {
 struct LatticeStiffness {
   double along_u = 0, along_v = 0, shear = 0, bending_u = 0, bending_v = 0;
 
-  explicit LatticeStiffness(const std::vector<SpringFamily>& families) {
+  /// Within the springs' limits, or beyond them all.
+  LatticeStiffness(const std::vector<SpringFamily>& families, bool stiffened) {
     std::array<double, kKinds> of_kind{};
-    for (const SpringFamily& family : families) of_kind[kind_of(family)] = family.stiffness;
+    for (const SpringFamily& family : families) {
+      of_kind[kind_of(family)] = family.stiffness * (stiffened ? family.limit.stiffening : 1);
+    }
     along_u = of_kind[kAlongU];
     along_v = of_kind[kAlongV];
     shear = of_kind[kFalling];  // both diagonals are alike
@@ -82,29 +85,32 @@ struct LatticeStiffness {
 
 }  // namespace
 
-double spring_energy(const Vec3& d, double rest_length, double stiffness) {
-  const double stretch = d.norm() - rest_length;
-  return 0.5 * stiffness * stretch * stretch;
+double spring_energy(const Vec3& d, double rest_length, double stiffness, const SpringLimit& limit) {
+  const double stretch = d.norm() - rest_length, over = std::max(0.0, d.norm() - limit.length);
+  return 0.5 * stiffness * (stretch * stretch + (limit.stiffening - 1) * over * over);
 }
 
-Vec3 spring_force(const Vec3& d, double rest_length, double stiffness) {
-  const double length = d.norm();
+Vec3 spring_force(const Vec3& d, double rest_length, double stiffness, const SpringLimit& limit) {
+  const double length = d.norm(), over = std::max(0.0, length - limit.length);
   if (length == 0) return Vec3::Zero();
-  return -stiffness * (length - rest_length) / length * d;
+  return -stiffness * (length - rest_length + (limit.stiffening - 1) * over) / length * d;
 }
 
-Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness) {
+Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness,
+                                 const SpringLimit& limit) {
   const double length = d.norm();
   if (length == 0) return Eigen::Matrix3d::Zero();
   const Vec3 n = d / length;
-  const Eigen::Matrix3d along = n * n.transpose();
-  return stiffness * along + stiffness * (1 - rest_length / length) * (Eigen::Matrix3d::Identity() - along);
+  const Eigen::Matrix3d along = n * n.transpose(), across = Eigen::Matrix3d::Identity() - along;
+  const Eigen::Matrix3d own = stiffness * along + stiffness * (1 - rest_length / length) * across;
+  if (length <= limit.length) return own;
+  return own + (limit.stiffening - 1) * stiffness * (along + (1 - limit.length / length) * across);
 }
 
 template <class Real>
 Springs<Real>::Springs(const Material& material, Discretization discretization, const Vec2& size,
-                       const Grid& grid, double damping_time)
-    : damping_time_(damping_time) {
+                       const Grid& grid, double damping_time, bool limited)
+    : damping_time_(damping_time), limited_(limited) {
   const double hx = size.x() / (grid.cols - 1);
   const double hy = size.y() / (grid.rows - 1);
   const double diagonal = std::hypot(hx, hy);
@@ -114,10 +120,19 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
     const double stiffness = continuum ? constant * shape : constant;
     if (stiffness > 0) families_.push_back({rows, cols, rest_length, stiffness, border_share});
   };
-  add(0, 1, hx, material.structural, hy / hx);
-  add(1, 0, hy, material.structural, hx / hy);
-  add(1, 1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy));
-  add(1, -1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy));
+  const auto add_limited = [&](int rows, int cols, double rest_length, double constant, double shape,
+                               double limit_length) {
+    const std::size_t before = families_.size();
+    add(rows, cols, rest_length, constant, shape);
+    if (limited && families_.size() > before)
+      families_.back().limit = {limit_length, material.limit.stiffening};
+  };
+  const StrainLimit& limit = material.limit;
+  const double locked = std::sqrt(diagonal * diagonal + 2 * hx * hy * std::sin(limit.shear));
+  add_limited(0, 1, hx, material.structural, hy / hx, hx * (1 + limit.warp));
+  add_limited(1, 0, hy, material.structural, hx / hy, hy * (1 + limit.weft));
+  add_limited(1, 1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy), locked);
+  add_limited(1, -1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy), locked);
   add(0, 2, 2 * hx, material.bending, hy / (2 * hx));
   add(2, 0, 2 * hy, material.bending, hx / (2 * hy));
 
@@ -132,7 +147,7 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
     }
   }
   work_.assign(kernels::spring_work_size(grid), Real(0));
-  if (damping_time_ > 0) damping_work_.assign(kernels::strain_damping_work_size(grid), Real(0));
+  if (damping_time_ > 0 || limited_) damping_work_.assign(kernels::strain_damping_work_size(grid), Real(0));
 }
 
 template <class Real>
@@ -149,6 +164,9 @@ kernels::SpringLattice<Real> Springs<Real>::lattice(const Grid& grid) const {
     lattice.has_shear = lattice.has_shear || kind_of(family) == kFalling;
     lattice.has_bending = lattice.has_bending || kind_of(family) == kBendingU;
     lattice.border_row_share = static_cast<Real>(family.border_share);
+    if (!limited_ || !std::isfinite(family.limit.length)) continue;
+    of_kind[kind_of(family)]->limit_length = static_cast<Real>(family.limit.length);
+    lattice.excess = static_cast<Real>(family.limit.stiffening - 1);
   }
   return lattice;
 }
@@ -157,8 +175,13 @@ template <class Real>
 void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
   if (families_.empty()) return;
   const Grid& grid = position.grid();
-  kernels::add_spring_forces(lattice(grid), grid, kernels::components(position), kernels::components(force),
-                             work_.data());
+  if (limited_) {
+    kernels::add_limited_spring_forces(lattice(grid), grid, kernels::components(position),
+                                       kernels::components(force), work_.data());
+  } else {
+    kernels::add_spring_forces(lattice(grid), grid, kernels::components(position), kernels::components(force),
+                               work_.data());
+  }
 }
 
 template <class Real>
@@ -172,13 +195,27 @@ void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Comp
 }
 
 template <class Real>
+void Springs<Real>::add_limit_damping(const VectorField<Real>& position, const VectorField<Real>& velocity,
+                                      double time, VectorField<Real>& force) const {
+  if (!limited_ || families_.empty()) return;
+  const Grid& grid = position.grid();
+  kernels::add_limit_damping(lattice(grid), grid, kernels::components(position),
+                             kernels::components(velocity), static_cast<Real>(time),
+                             kernels::components(force), damping_work_.data());
+}
+
+template <class Real>
 void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> position,
                               const kernels::LinkFamilies<kernels::SpringLinks<Real>>& links,
                               double h) const {
   const kernels::SpringLattice<Real> springs = lattice(grid);
   const Real axial = static_cast<Real>(1 + damping_time_ / h);
   Bands(grid).for_each([&](kernels::RowRange rows, int) {
-    kernels::linearise_springs(springs, grid, position, axial, links, rows);
+    if (limited_) {
+      kernels::linearise_limited_springs(springs, grid, position, axial, links, rows);
+    } else {
+      kernels::linearise_springs(springs, grid, position, axial, links, rows);
+    }
   });
 }
 
@@ -186,7 +223,8 @@ template <class Real>
 kernels::SpringModelError Springs<Real>::model_error(const Grid& grid,
                                                      kernels::Components<const Real> position,
                                                      kernels::Components<const Real> change) const {
-  return kernels::spring_model_error(lattice(grid), grid, position, change);
+  return limited_ ? kernels::limited_spring_model_error(lattice(grid), grid, position, change)
+                  : kernels::spring_model_error(lattice(grid), grid, position, change);
 }
 
 template <class Real>
@@ -198,7 +236,7 @@ bool Springs<Real>::has_bending() const {
 template <class Real>
 double Springs<Real>::node_stiffness() const {
   double sum = 0;
-  for (const SpringFamily& family : families_) sum += 2 * family.stiffness;
+  for (const SpringFamily& family : families_) sum += 2 * family.stiffness * family.limit.stiffening;
   return sum;
 }
 
@@ -207,7 +245,7 @@ double Springs<Real>::energy(const VectorField<Real>& position) const {
   double sum = 0;
   for (const SpringFamily& family : families_) {
     for_each_spring(family, position, [&](const Vec3& d, double stiffness) {
-      sum += spring_energy(d, family.rest_length, stiffness);
+      sum += spring_energy(d, family.rest_length, stiffness, family.limit);
     });
   }
   return sum;
@@ -233,6 +271,16 @@ StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& posit
 
 template <class Real>
 double Springs<Real>::max_squared_frequency(const Field<Real>& mass) const {
+  return squared_frequency(mass, true);
+}
+
+template <class Real>
+double Springs<Real>::max_damping_rate(const Field<Real>& mass) const {
+  return damping_time_ == 0 ? 0 : damping_time_ * squared_frequency(mass, false);
+}
+
+template <class Real>
+double Springs<Real>::squared_frequency(const Field<Real>& mass, bool stiffened) const {
   if (families_.empty()) return 0;
   // A spring's stiffness matrix is at most k I, so K is at most the lattice's weighted Laplacian, for any
   // shape. With border springs at full stiffness the sheet is part of an infinite lattice: K <= S I, S that
@@ -249,7 +297,7 @@ double Springs<Real>::max_squared_frequency(const Field<Real>& mass) const {
     }
   }
   // Room for the rounding of the masses and of whoever computes the eigenvalue.
-  return LatticeStiffness(families_).of_stiffest_wave() * most * (1 + 1e-6);
+  return LatticeStiffness(families_, stiffened).of_stiffest_wave() * most * (1 + 1e-6);
 }
 
 template class Springs<float>;

@@ -10,13 +10,16 @@
 
 namespace weft {
 
-/// Energy of one spring, J: 1/2 k (|d| - l0)^2, with d = r_i - r_j.
-double spring_energy(const Vec3& d, double rest_length, double stiffness);
-/// Force on end i, N: Eq. 1's summand, -k (|d| - l0) d / |d|; zero for coincident ends (no direction to push
-/// in).
-Vec3 spring_force(const Vec3& d, double rest_length, double stiffness);
-/// Stiffness -dF_i/dr_i, N/m: k n n^T + k (1 - l0/|d|) (I - n n^T); zero for coincident ends.
-Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness);
+/// Energy of one spring, J: 1/2 k (|d| - l0)^2, with d = r_i - r_j. One that stiffens by the factor s beyond
+/// l1 (StrainLimitEffect) has 1/2 (s - 1) k max(0, |d| - l1)^2 besides, as if a slack spring lay beside it.
+double spring_energy(const Vec3& d, double rest_length, double stiffness, const SpringLimit& limit = {});
+/// Force on end i, N: Eq. 1's summand, -k (|d| - l0) d / |d|, and the slack spring's; zero for coincident
+/// ends (no direction to push in).
+Vec3 spring_force(const Vec3& d, double rest_length, double stiffness, const SpringLimit& limit = {});
+/// Stiffness -dF_i/dr_i, N/m: k n n^T + k (1 - l0/|d|) (I - n n^T), and the slack spring's where it is not
+/// slack; zero for coincident ends.
+Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness,
+                                 const SpringLimit& limit = {});
 
 struct StructuralStrain {
   double max = 0;   ///< largest |l - l0| / l0 over structural springs
@@ -24,7 +27,8 @@ struct StructuralStrain {
 };
 
 /// The springs of one cloth at one level. Families of zero stiffness are left out: they cost nothing. With a
-/// damping time tau, s, each spring resists the rate of its length as well (StrainDampingEffect).
+/// damping time tau, s, each spring resists the rate of its length as well (StrainDampingEffect); `limited`
+/// structural and shear springs stiffen where the material says (StrainLimitEffect).
 template <class Real>
 class Springs {
  public:
@@ -33,17 +37,21 @@ class Springs {
   /// along u, Y hx/hy along v; shear G d^2 / (2 hx hy) with d the diagonal; bending as structural at twice
   /// the distance, B hy/(2 hx) and B hx/(2 hy).
   Springs(const Material& material, Discretization discretization, const Vec2& size, const Grid& grid,
-          double damping_time = 0);
+          double damping_time = 0, bool limited = false);
 
   const std::vector<SpringFamily>& families() const { return families_; }
 
   /// Adds Eq. 1's force on every node, N.
   void add_forces(const VectorField<Real>& position, VectorField<Real>& force) const;
   double damping_time() const { return damping_time_; }  ///< s; 0: undamped
+  bool limited() const { return limited_; }
   /// Adds the damping of nodes that moved by `change` in `time` seconds, N: on end i of every spring
   /// -tau k n (n . (change_i - change_j)) / time. Nothing where undamped.
   void add_damping(const VectorField<Real>& position, kernels::Components<const Real> change, double time,
                    VectorField<Real>& force) const;
+  /// Adds a damping by `time` of what the springs gain beyond their limits, N; the nodes move at `velocity`.
+  void add_limit_damping(const VectorField<Real>& position, const VectorField<Real>& velocity, double time,
+                         VectorField<Real>& force) const;
   /// Linearises every spring at `position`, given with its rows of zeros (kernels/link_kernels.h); of a step
   /// of `h` seconds, in which damping stiffens a spring along itself by 1 + tau / h.
   void linearise(const Grid& grid, kernels::Components<const Real> position,
@@ -54,26 +62,32 @@ class Springs {
   kernels::SpringModelError model_error(const Grid& grid, kernels::Components<const Real> position,
                                         kernels::Components<const Real> change) const;
   bool has_bending() const;
-  /// Stiffness of all springs at a node away from the border, N/m.
+  /// Stiffness of all springs at a node away from the border, N/m, beyond their limits where they have any.
   double node_stiffness() const;
   /// J.
   double energy(const VectorField<Real>& position) const;
   StructuralStrain structural_strain(const VectorField<Real>& position) const;
   /// A bound on the largest eigenvalue of M^-1 K, 1/s2, whatever the cloth's shape: the squared angular
   /// frequency of the stiffest mode. From the lattice's dispersion relation, springs all aligned (worst
-  /// case), any wave vector; a border node counts by the share of the lattice it stands for.
+  /// case) and beyond their limits, any wave vector; a border node counts by the share of the lattice it
+  /// stands for.
   double max_squared_frequency(const Field<Real>& mass) const;
+  /// The same of what the springs' damping does, 1/s. What they gain beyond their limits is not damped.
+  double max_damping_rate(const Field<Real>& mass) const;
 
  private:
   kernels::SpringLattice<Real> lattice(const Grid& grid) const;
+  double squared_frequency(const Field<Real>& mass, bool stiffened) const;
 
   std::vector<SpringFamily> families_;
   double damping_time_ = 0;
+  bool limited_ = false;
   /// Stiffness by column of each family's first end, a row for each of the six.
   std::vector<Real, AlignedAllocator<Real>> columns_;
   /// The force kernel's work rows: no state, but one owner at a time.
   mutable std::vector<Real, AlignedAllocator<Real>> work_;
-  mutable std::vector<Real, AlignedAllocator<Real>> damping_work_;  ///< empty where undamped
+  mutable std::vector<Real, AlignedAllocator<Real>>
+      damping_work_;  ///< empty where neither damped nor limited
 };
 
 extern template class Springs<float>;

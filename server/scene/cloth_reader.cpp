@@ -32,6 +32,17 @@ void read_rigidity(Object& material, Rigidity& rigidity) {
   rigidity = {read[0], read[1], read[2]};
 }
 
+void read_limit(const json& value, const std::string& path, Report& report, StrainLimit& limit) {
+  constexpr Range kElongation{1e-3, 10};
+  constexpr Range kShear{1e-3, 1.5, "rad"};
+  constexpr Range kStiffening{1, 1000};
+  Object object(value, path, report);
+  object.number("warp", limit.warp, kElongation);
+  object.number("weft", limit.weft, kElongation);
+  object.number("shear", limit.shear, kShear);
+  object.number("stiffening", limit.stiffening, kStiffening);
+}
+
 /// A fabric's name, or raw values; with "fabric" they change that fabric's.
 Material read_material(const json& value, const std::string& path, Report& report) {
   constexpr Range kDensity{1e-4, 1e4, "kg/m2"};
@@ -52,6 +63,8 @@ Material read_material(const json& value, const std::string& path, Report& repor
   object.number("bending", material.bending, kStiffness);
   object.number("damping", material.damping, kDamping);
   read_rigidity(object, material.rigidity);
+  if (const json* limit = object.find("limit"))
+    read_limit(*limit, object.path("limit"), report, material.limit);
   return material;
 }
 

@@ -48,9 +48,10 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kFriction{0, 10};
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (object.choice(
-      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName, ClothContactEffect::kName})) {
+  switch (
+      object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
+                             AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
+                             StrainLimitEffect::kName, ClothContactEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -79,7 +80,9 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     }
     case 5:
       return PlateBendingEffect{};
-    case 6: {
+    case 6:
+      return StrainLimitEffect{};
+    case 7: {
       ClothContactEffect contact;
       object.number("thickness", contact.thickness, kThickness);
       object.number("friction", contact.friction, kFriction);

@@ -22,8 +22,9 @@ EFFECTS = {
     "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
     "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
     "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
+    "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
     "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet)::"]),
-    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|relax)_plate.*clone"]),
+    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
 }
 
 

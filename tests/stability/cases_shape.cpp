@@ -1,4 +1,4 @@
-// Hopeless shapes and shocks: S6, S7, S12, S18, S19.
+// Hopeless shapes and shocks: S6, S7, S12, S18, S19, S21.
 #include <random>
 
 #include "endings.h"
@@ -133,6 +133,37 @@ Case yanked() {
   return made;
 }
 
+Case jerked_at_limit() {
+  constexpr double kStart = 0.5, kPull = 0.1, kSpeed = 10, kFar = kSpeed * kPull;
+  const auto scene = [=](const Setup& setup) {
+    SimulationDescription made = ordinary_sheet(setup, {kTopEdge});
+    made.effects.emplace_back(StrainLimitEffect{});
+    made.cloths[0].material.structural = 500;
+    made.cloths[0].material.shear = 100;
+    made.cloths[0].material.limit = {0.05, 0.05, 0.3, 50};
+    made.cloths[0].pins[0].path = {
+        {kStart, {0, 0, 0}}, {kStart + kPull, {0, kFar, 0}}, {kStart + 2 * kPull, {0, 0, 0}}};
+    return made;
+  };
+  Case made{
+      "S21", "limit of 5 %, the upper edge jerked up and down at 10 m/s: never much beyond it", {{8, scene}}};
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    const Material& material = hung.cloths[0].material;
+    // A jump of v in the stiffened sheet is a wave of strain v / c, c^2 = s Y / rho. The free edge sends it
+    // back at twice the speed, against the held one that now comes down: 3 v.
+    const double stiffness = material.limit.stiffening * material.structural;
+    const double wave = 3 * kSpeed / std::sqrt(stiffness / material.density);
+    Expectation expect;
+    expect.input = 2 * mass_of(hung.cloths[0]) * (9 * kSpeed * kSpeed / 2 + kGravity * kFar);
+    expect.stretch =
+        material.limit.weft + wave + xpbd_excess(hung, setup, stiffness * wave * kSize / (1 << setup.level));
+    expect.stretch_from = 0;
+    return expect;
+  };
+  return made;
+}
+
 Case coincident() {
   const auto scene = [](const Setup& setup) {
     const int middle = 1 << (setup.level - 1);
@@ -172,6 +203,7 @@ std::vector<Case> shape_cases() {
       ribbon(),
       shot_node(),
       coincident(),
+      jerked_at_limit(),
   };
 }
 

@@ -23,7 +23,12 @@ json json_of(const ClothDescription& cloth) {
         {"shear", material.shear},
         {"bending", material.bending},
         {"damping", material.damping},
-        {"rigidity", {material.rigidity.u, material.rigidity.v, material.rigidity.twist}}}},
+        {"rigidity", {material.rigidity.u, material.rigidity.v, material.rigidity.twist}},
+        {"limit",
+         {{"warp", material.limit.warp},
+          {"weft", material.limit.weft},
+          {"shear", material.limit.shear},
+          {"stiffening", material.limit.stiffening}}}}},
       {"discretization", cloth.discretization == Discretization::paper ? "paper" : "continuum"},
       {"pins", json::array()}};
   if (cloth.nodes.empty()) {
@@ -81,6 +86,7 @@ struct EffectWriter {
   }
   json operator()(const StrainDampingEffect& e) const { return {{"time", e.time}}; }
   json operator()(const PlateBendingEffect&) const { return json::object(); }
+  json operator()(const StrainLimitEffect&) const { return json::object(); }
   json operator()(const ClothContactEffect& e) const {
     return {{"thickness", e.thickness}, {"friction", e.friction}};
   }

@@ -19,6 +19,7 @@ struct EffectMaker {
   // The sheet's own affair: Springs and Plate, which each integrator takes in its own way.
   Made operator()(const StrainDampingEffect&) const { return nullptr; }
   Made operator()(const PlateBendingEffect&) const { return nullptr; }
+  Made operator()(const StrainLimitEffect&) const { return nullptr; }
   // The whole scene's: Layers.
   Made operator()(const ClothContactEffect&) const { return nullptr; }
 };

@@ -60,8 +60,8 @@ extern template class Effect<float>;
 extern template class Effect<double>;
 
 /// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
-/// Those that belong to the sheet itself, strain_damping and plate_bending, are left to Springs and Plate,
-/// cloth_contact to the simulation.
+/// Those that belong to the sheet itself, strain_damping, strain_limit and plate_bending, are left to Springs
+/// and Plate, cloth_contact to the simulation.
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
 

@@ -266,18 +266,40 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
     const bool found = changed.taken || decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
-    double pulling = s.contacts.release_pulling(s.move, s.system.bodies());
+    double error = changed.error, pulling = 0;
+    if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
-    const bool pulled = pulling > solved.target;
-    if (report.brought_in <= 0 && !pulled &&
-        (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
-      break;
+    error = std::max(error, pulling);
+    if (report.brought_in <= 0 && (error <= solved.target || (left <= 1 && error <= kRough * s.scale))) break;
   }
   return report;
 }
 
 template <class Real>
+void Implicit<Real>::scale_change(double share) {
+  State& s = *state_;
+  for (Real* component : {s.change.x, s.change.y, s.change.z}) {
+    std::transform(component, component + s.system.grid().size(), component,
+                   [part = static_cast<Real>(share)](Real x) { return part * x; });
+  }
+  s.system.bodies().scale_changes(share);
+}
+
+template <class Real>
 auto Implicit<Real>::whole_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+  State& s = *state_;
+  double left_over = 0;
+  if (!s.contacts.empty()) {
+    const double share = s.contacts.best_share(s.move, s.change, s.system.bodies(), decrease);
+    if (share < 1) scale_change(share);
+    left_over = (1 - share) * (1 - share) * decrease;
+  }
+  const ChangeReport report = model_change(springs, decrease - left_over);
+  return {report.brought_in, std::max(report.error, left_over)};
+}
+
+template <class Real>
+auto Implicit<Real>::model_change(const Springs<Real>& springs, double decrease) const -> ChangeReport {
   const kernels::SpringModelError error =
       springs.model_error(state_->system.grid(), state_->position, state_->change);
   return {error.sum - decrease, error.magnitude};
@@ -288,13 +310,9 @@ auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrea
   const kernels::Components<Real> change = state_->change;
   for (double share = 1; share > kSmallestShare; share /= 2) {
     // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = whole_change(springs, share * (2 - share) * decrease);
+    const ChangeReport report = model_change(springs, share * (2 - share) * decrease);
     if (report.brought_in <= 0) return report;
-    for (Real* component : {change.x, change.y, change.z}) {
-      std::transform(component, component + state_->system.grid().size(), component,
-                     [](Real x) { return x / 2; });
-    }
-    state_->system.bodies().scale_changes(0.5);
+    scale_change(0.5);
   }
   clear(change, state_->system.grid().size());
   state_->system.bodies().scale_changes(0);

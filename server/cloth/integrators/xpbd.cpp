@@ -1,6 +1,7 @@
 #include "cloth/integrators/xpbd.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cloth/clock.h"
@@ -88,6 +89,10 @@ void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid,
     springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
                         static_cast<Real>(family->border_share), stiffness,
                         static_cast<Real>(springs.damping_time() / h)});
+    if (std::isfinite(family->limit.length)) {
+      springs_.back().limit_length = static_cast<Real>(family->limit.length);
+      springs_.back().excess = static_cast<Real>(family->limit.stiffening - 1);
+    }
   }
 }
 
@@ -127,7 +132,13 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
   const bool damped = forces.springs->damping_time() > 0;
   if (damped) take_back_pins(forces, 1, h);
   if (forces.plate != nullptr) kernels::project_plate(layout_, plate_.data(), sheet_.data());
-  for (const auto& family : springs_) kernels::project(layout_, family, sheet_.data());
+  for (const auto& family : springs_) {
+    if (family.excess > Real(0)) {
+      kernels::project_limited(layout_, family, sheet_.data());
+    } else {
+      kernels::project(layout_, family, sheet_.data());
+    }
+  }
   if (damped) take_back_pins(forces, -1, h);
   kernels::take_over(layout_, grid, sheet_.data(), static_cast<Real>(h), nodes, row_.data());
 }

@@ -9,13 +9,13 @@ namespace weft::kernels {
 namespace {
 
 /// Springs of one family that start in one row; `other` is where their second ends lie from the first.
-template <class Real>
-[[gnu::always_inline]] inline void linearise_row(const SpringColumns<Real>& springs, Real share,
+template <class Real, bool kLimited>
+[[gnu::always_inline]] inline void linearise_row(const SpringColumns<Real>& springs, Real excess, Real share,
                                                  const Components<const Real>& position, std::ptrdiff_t first,
                                                  std::ptrdiff_t other, int count, Real axial,
                                                  const SpringLinks<Real>& links) {
   const Real* __restrict stiffness = springs.stiffness;
-  const Real rest_length = springs.rest_length;
+  const Real rest_length = springs.rest_length, limit_length = springs.limit_length;
   const Real* __restrict x = position.x + first;
   const Real* __restrict y = position.y + first;
   const Real* __restrict z = position.z + first;
@@ -31,8 +31,14 @@ template <class Real>
     const Real k = share * stiffness[c];
     const Real stretch = length - rest_length;
     // max(0, stretch) without a branch, which the compiler would keep.
-    const Real sideways = k * ((stretch + std::abs(stretch)) / 2) / length;
-    const Real along = std::sqrt(axial * k - sideways) / length;
+    Real longer = (stretch + std::abs(stretch)) / 2, stiffness_along = axial * k;
+    if constexpr (kLimited) {
+      const Real past = length - limit_length, over = (past + std::abs(past)) / 2;
+      longer += excess * over;
+      stiffness_along += excess * k * unit_step(past, over);
+    }
+    const Real sideways = k * longer / length;
+    const Real along = std::sqrt(stiffness_along - sideways) / length;
     a[c] = sideways;
     mx[c] = along * dx;
     my[c] = along * dy;
@@ -40,7 +46,7 @@ template <class Real>
   }
 }
 
-template <class Real>
+template <class Real, bool kLimited>
 [[gnu::always_inline]] inline void linearise_any(const SpringLattice<Real>& springs, const Grid& grid,
                                                  const Components<const Real>& position, Real axial,
                                                  const LinkFamilies<SpringLinks<Real>>& links,
@@ -53,12 +59,17 @@ template <class Real>
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
     const auto row = [&](const SpringColumns<Real>& family, Real row_share, std::ptrdiff_t other,
                          const SpringLinks<Real>& out) WEFT_INLINE_LAMBDA {
-      linearise_row(family, row_share, position, first, other, count, axial, out);
+      linearise_row<Real, kLimited>(family, springs.excess, row_share, position, first, other, count, axial,
+                                    out);
+    };
+    const auto bending_row = [&](const SpringColumns<Real>& family, Real row_share, std::ptrdiff_t other,
+                                 const SpringLinks<Real>& out) WEFT_INLINE_LAMBDA {
+      linearise_row<Real, false>(family, 0, row_share, position, first, other, count, axial, out);
     };
     row(springs.along_u, share, 1, links.along_u);
     if (links.has_bending) {
-      row(springs.bending_u, share, 2, links.bending_u);
-      if (r + 2 < grid.rows) row(springs.bending_v, Real(1), 2 * stride, links.bending_v);
+      bending_row(springs.bending_u, share, 2, links.bending_u);
+      if (r + 2 < grid.rows) bending_row(springs.bending_v, Real(1), 2 * stride, links.bending_v);
     }
     if (last) break;
     row(springs.along_v, Real(1), stride, links.along_v);
@@ -235,7 +246,13 @@ template <class Real>
   WEFT_MULTIVERSION void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid,             \
                                            Components<const Real> position, Real axial,                      \
                                            const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {    \
-    linearise_any<Real>(springs, grid, position, axial, links, rows);                                        \
+    linearise_any<Real, false>(springs, grid, position, axial, links, rows);                                 \
+  }                                                                                                          \
+  template <>                                                                                                \
+  WEFT_MULTIVERSION void linearise_limited_springs(                                                          \
+      const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position, Real axial,     \
+      const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {                                         \
+    linearise_any<Real, true>(springs, grid, position, axial, links, rows);                                  \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void begin_backward_step(                                                                \

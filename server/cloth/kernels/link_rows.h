@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/multiversion.h"
@@ -11,6 +13,13 @@ namespace weft::kernels {
 inline constexpr int kLinkGroup = 16;
 
 inline int grouped(int cols) { return (cols + kLinkGroup - 1) / kLinkGroup * kLinkGroup; }
+
+/// 1 where x > 0, else 0; `positive` is max(0, x). Without a comparison, which would keep the loop from being
+/// vectorised.
+template <class Real>
+[[gnu::always_inline]] inline Real unit_step(Real x, Real positive) {
+  return positive / (std::abs(x) + std::numeric_limits<Real>::min());
+}
 
 template <class Real>
 struct Triple {

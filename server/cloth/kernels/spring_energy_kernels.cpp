@@ -29,12 +29,12 @@ struct Lanes {
 };
 
 /// Springs of one family that start in one row; `other` is where their second ends lie from the first.
-template <class Real>
-[[gnu::always_inline]] inline void add_row(const SpringColumns<Real>& springs, Real share,
+template <class Real, bool kLimited>
+[[gnu::always_inline]] inline void add_row(const SpringColumns<Real>& springs, Real excess, Real share,
                                            const Fields<Real>& fields, std::ptrdiff_t first,
                                            std::ptrdiff_t other, int count, Lanes<Real>& lanes) {
   const Real* __restrict stiffness = springs.stiffness;
-  const Real rest_length = springs.rest_length;
+  const Real rest_length = springs.rest_length, limit_length = springs.limit_length;
   const Real* __restrict x = fields.position.x + first;
   const Real* __restrict y = fields.position.y + first;
   const Real* __restrict z = fields.position.z + first;
@@ -58,15 +58,24 @@ template <class Real>
       const Real extra = turned / (longer + std::abs(straight)) + (std::abs(straight) - straight);
       const Real stretch = length - rest_length;
       const Real sideways = ((stretch + std::abs(stretch)) / 2) / length;
-      const Real error =
-          share * stiffness[i] / 2 * (extra * (2 * (stretch + along) + extra) - sideways * turned);
+      Real twice = extra * (2 * (stretch + along) + extra) - sideways * turned;
+      if constexpr (kLimited) {
+        const Real past = length - limit_length, over = (past + std::abs(past)) / 2;
+        const Real past_then = past + along + extra, found = (past_then + std::abs(past_then)) / 2;
+        const Real is_over = unit_step(past, over), reckoned = over + is_over * along;
+        // Beyond the limit before and after: again without a difference of near equals.
+        const Real stays = is_over * unit_step(past_then, found);
+        const Real gain = stays * extra + (1 - stays) * (found - reckoned);
+        twice += excess * (gain * (found + reckoned) - over / length * turned);
+      }
+      const Real error = share * stiffness[i] / 2 * twice;
       lanes.sum[lane] += error;
       lanes.magnitude[lane] += std::abs(error);
     }
   }
 }
 
-template <class Real>
+template <class Real, bool kLimited>
 [[gnu::always_inline]] inline SpringModelError model_error_any(const SpringLattice<Real>& springs,
                                                                const Grid& grid, const Fields<Real>& fields) {
   SpringModelError error;
@@ -77,13 +86,18 @@ template <class Real>
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
-    const auto row =
-        [&](const SpringColumns<Real>& family, Real row_share, std::ptrdiff_t other)
-            WEFT_INLINE_LAMBDA { add_row(family, row_share, fields, first, other, count, lanes); };
+    const auto row = [&](const SpringColumns<Real>& family, Real row_share,
+                         std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
+      add_row<Real, kLimited>(family, springs.excess, row_share, fields, first, other, count, lanes);
+    };
+    const auto bending_row = [&](const SpringColumns<Real>& family, Real row_share,
+                                 std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
+      add_row<Real, false>(family, 0, row_share, fields, first, other, count, lanes);
+    };
     row(springs.along_u, share, 1);
     if (springs.has_bending) {
-      row(springs.bending_u, share, 2);
-      if (r + 2 < grid.rows) row(springs.bending_v, Real(1), 2 * stride);
+      bending_row(springs.bending_u, share, 2);
+      if (r + 2 < grid.rows) bending_row(springs.bending_v, Real(1), 2 * stride);
     }
     if (!last) {
       row(springs.along_v, Real(1), stride);
@@ -104,13 +118,27 @@ template <>
 WEFT_MULTIVERSION SpringModelError spring_model_error(const SpringLattice<float>& springs, const Grid& grid,
                                                       Components<const float> position,
                                                       Components<const float> change) {
-  return model_error_any<float>(springs, grid, {position, change});
+  return model_error_any<float, false>(springs, grid, {position, change});
 }
 template <>
 WEFT_MULTIVERSION SpringModelError spring_model_error(const SpringLattice<double>& springs, const Grid& grid,
                                                       Components<const double> position,
                                                       Components<const double> change) {
-  return model_error_any<double>(springs, grid, {position, change});
+  return model_error_any<double, false>(springs, grid, {position, change});
+}
+template <>
+WEFT_MULTIVERSION SpringModelError limited_spring_model_error(const SpringLattice<float>& springs,
+                                                              const Grid& grid,
+                                                              Components<const float> position,
+                                                              Components<const float> change) {
+  return model_error_any<float, true>(springs, grid, {position, change});
+}
+template <>
+WEFT_MULTIVERSION SpringModelError limited_spring_model_error(const SpringLattice<double>& springs,
+                                                              const Grid& grid,
+                                                              Components<const double> position,
+                                                              Components<const double> change) {
+  return model_error_any<double, true>(springs, grid, {position, change});
 }
 
 }  // namespace weft::kernels

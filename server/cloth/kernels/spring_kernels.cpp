@@ -24,15 +24,26 @@ struct Force {
   Real x, y, z;
 };
 
-/// Force on end i of a spring, d = r_i - r_j: Eq. 1's summand.
+/// What the springs of a family have in common.
 template <class Real>
+struct Law {
+  Real rest_length, limit_length, excess;
+};
+
+/// Force on end i of a spring, d = r_i - r_j: Eq. 1's summand.
+template <bool kLimited, class Real>
 [[gnu::always_inline]] inline Force<Real> spring(Real dx, Real dy, Real dz, Real stiffness,
-                                                 Real rest_length) {
+                                                 const Law<Real>& law) {
   // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
   const Real smallest = std::numeric_limits<Real>::min();
   const Real squared = dx * dx + dy * dy + dz * dz;
   const Real length = std::sqrt(squared > smallest ? squared : smallest);
-  const Real factor = stiffness * (rest_length - length) / length;
+  Real shorter = law.rest_length - length;
+  if constexpr (kLimited) {
+    const Real over = length - law.limit_length;
+    shorter -= law.excess * (over > Real(0) ? over : Real(0));
+  }
+  const Real factor = stiffness * shorter / length;
   return {factor * dx, factor * dy, factor * dz};
 }
 
@@ -49,7 +60,7 @@ struct Rows {
 /// Adds the forces of all springs whose first end lies in row 0 of `rows`. Springs down a column give their
 /// force to both ends at once. For the others the second end is in another column, so that their forces wait
 /// in work rows until the first pass is over.
-template <class Real, bool kShear, bool kBending>
+template <class Real, bool kShear, bool kBending, bool kLimited>
 [[gnu::always_inline]] inline void add_row(const SpringLattice<Real>& springs, const Rows<Real>& rows,
                                            const Real* __restrict stiffness_v,
                                            const Real* __restrict stiffness_falling,
@@ -69,43 +80,48 @@ template <class Real, bool kShear, bool kBending>
                          rising = rows.rising;
   const Real* __restrict stiffness_u = springs.along_u.stiffness;
   const Real* __restrict stiffness_bending_u = springs.bending_u.stiffness;
-  const Real rest_u = springs.along_u.rest_length, rest_v = springs.along_v.rest_length;
-  const Real rest_shear = springs.falling.rest_length;
-  const Real rest_bending_u = springs.bending_u.rest_length, rest_bending_v = springs.bending_v.rest_length;
+  const auto law_of = [&](const SpringColumns<Real>& family) WEFT_INLINE_LAMBDA -> Law<Real> {
+    return {family.rest_length, family.limit_length, springs.excess};
+  };
+  const Law<Real> law_u = law_of(springs.along_u), law_v = law_of(springs.along_v);
+  const Law<Real> law_shear = law_of(springs.falling);
+  const Law<Real> law_bending_u = law_of(springs.bending_u), law_bending_v = law_of(springs.bending_v);
   const Real share = rows.row_share;
 
   WEFT_INDEPENDENT_ITERATIONS
   for (int c = 0; c < count; ++c) {
     const Real x = x0[c], y = y0[c], z = z0[c];
-    Force<Real> sum = spring(x - x0[c + 1], y - y0[c + 1], z - z0[c + 1], share * stiffness_u[c], rest_u);
+    Force<Real> sum =
+        spring<kLimited>(x - x0[c + 1], y - y0[c + 1], z - z0[c + 1], share * stiffness_u[c], law_u);
     along.x[c] = sum.x;
     along.y[c] = sum.y;
     along.z[c] = sum.z;
-    const Force<Real> v = spring(x - x1[c], y - y1[c], z - z1[c], stiffness_v[c], rest_v);
+    const Force<Real> v = spring<kLimited>(x - x1[c], y - y1[c], z - z1[c], stiffness_v[c], law_v);
     f1.x[c] -= v.x;
     f1.y[c] -= v.y;
     f1.z[c] -= v.z;
     sum = {sum.x + v.x, sum.y + v.y, sum.z + v.z};
     if constexpr (kShear) {
       const Force<Real> a =
-          spring(x - x1[c + 1], y - y1[c + 1], z - z1[c + 1], stiffness_falling[c], rest_shear);
+          spring<kLimited>(x - x1[c + 1], y - y1[c + 1], z - z1[c + 1], stiffness_falling[c], law_shear);
       falling.x[c] = a.x;
       falling.y[c] = a.y;
       falling.z[c] = a.z;
       const Force<Real> b =
-          spring(x - x1[c - 1], y - y1[c - 1], z - z1[c - 1], stiffness_rising[c], rest_shear);
+          spring<kLimited>(x - x1[c - 1], y - y1[c - 1], z - z1[c - 1], stiffness_rising[c], law_shear);
       rising.x[c] = b.x;
       rising.y[c] = b.y;
       rising.z[c] = b.z;
       sum = {sum.x + (a.x + b.x), sum.y + (a.y + b.y), sum.z + (a.z + b.z)};
     }
     if constexpr (kBending) {
-      const Force<Real> a =
-          spring(x - x0[c + 2], y - y0[c + 2], z - z0[c + 2], share * stiffness_bending_u[c], rest_bending_u);
+      const Force<Real> a = spring<false>(x - x0[c + 2], y - y0[c + 2], z - z0[c + 2],
+                                          share * stiffness_bending_u[c], law_bending_u);
       second.x[c] = a.x;
       second.y[c] = a.y;
       second.z[c] = a.z;
-      const Force<Real> b = spring(x - x2[c], y - y2[c], z - z2[c], stiffness_bending_v[c], rest_bending_v);
+      const Force<Real> b =
+          spring<false>(x - x2[c], y - y2[c], z - z2[c], stiffness_bending_v[c], law_bending_v);
       f2.x[c] -= b.x;
       f2.y[c] -= b.y;
       f2.z[c] -= b.z;
@@ -139,7 +155,7 @@ template <class T>
   return {field.x + by, field.y + by, field.z + by};
 }
 
-template <class Real, bool kShear, bool kBending>
+template <class Real, bool kShear, bool kBending, bool kLimited>
 [[gnu::always_inline]] inline void add_all_rows(const SpringLattice<Real>& springs, const Grid& grid,
                                                 const Components<const Real>& position,
                                                 const Components<Real>& force, Real* work) {
@@ -169,25 +185,25 @@ template <class Real, bool kShear, bool kBending>
         has_second ? offset(position, grid.index(r + 2, 0)) : Components<const Real>{zeros, zeros, zeros};
     rows.force2 = has_second ? offset(force, grid.index(r + 2, 0)) : nowhere;
     rows.row_share = r == 0 || !has_next ? springs.border_row_share : Real(1);
-    add_row<Real, kShear, kBending>(springs, rows, has_next ? springs.along_v.stiffness : zeros,
-                                    has_next ? springs.falling.stiffness : zeros,
-                                    has_next ? springs.rising.stiffness : zeros,
-                                    has_second ? springs.bending_v.stiffness : zeros, count);
+    add_row<Real, kShear, kBending, kLimited>(springs, rows, has_next ? springs.along_v.stiffness : zeros,
+                                              has_next ? springs.falling.stiffness : zeros,
+                                              has_next ? springs.rising.stiffness : zeros,
+                                              has_second ? springs.bending_v.stiffness : zeros, count);
   }
 }
 
-template <class Real>
+template <class Real, bool kLimited>
 [[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid,
                                            const Components<const Real>& position,
                                            const Components<Real>& force, Real* work) {
   if (springs.has_shear && springs.has_bending) {
-    add_all_rows<Real, true, true>(springs, grid, position, force, work);
+    add_all_rows<Real, true, true, kLimited>(springs, grid, position, force, work);
   } else if (springs.has_shear) {
-    add_all_rows<Real, true, false>(springs, grid, position, force, work);
+    add_all_rows<Real, true, false, kLimited>(springs, grid, position, force, work);
   } else if (springs.has_bending) {
-    add_all_rows<Real, false, true>(springs, grid, position, force, work);
+    add_all_rows<Real, false, true, kLimited>(springs, grid, position, force, work);
   } else {
-    add_all_rows<Real, false, false>(springs, grid, position, force, work);
+    add_all_rows<Real, false, false, kLimited>(springs, grid, position, force, work);
   }
 }
 
@@ -198,13 +214,25 @@ std::size_t spring_work_size(const Grid& grid) { return kWorkRows * work_row_siz
 WEFT_MULTIVERSION void add_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
                                          Components<const float> position, Components<float> force,
                                          float* work) {
-  add_all<float>(springs, grid, position, force, work);
+  add_all<float, false>(springs, grid, position, force, work);
 }
 
 WEFT_MULTIVERSION void add_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
                                          Components<const double> position, Components<double> force,
                                          double* work) {
-  add_all<double>(springs, grid, position, force, work);
+  add_all<double, false>(springs, grid, position, force, work);
+}
+
+WEFT_MULTIVERSION void add_limited_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                                                 Components<const float> position, Components<float> force,
+                                                 float* work) {
+  add_all<float, true>(springs, grid, position, force, work);
+}
+
+WEFT_MULTIVERSION void add_limited_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                                                 Components<const double> position, Components<double> force,
+                                                 double* work) {
+  add_all<double, true>(springs, grid, position, force, work);
 }
 
 }  // namespace weft::kernels

@@ -7,8 +7,9 @@ namespace weft::kernels {
 template <class Real>
 struct SpringColumns {
   const Real* stiffness =
-      nullptr;           ///< N/m by column of the first end, one row of the grid; 0 where there is no spring
-  Real rest_length = 0;  ///< m
+      nullptr;            ///< N/m by column of the first end, one row of the grid; 0 where there is no spring
+  Real rest_length = 0;   ///< m
+  Real limit_length = 0;  ///< m, beyond which the limited kernels have it stiffer; not of bending springs
 };
 
 /// All springs of a sheet, as add_spring_forces reads them.
@@ -19,6 +20,7 @@ struct SpringLattice {
   SpringColumns<Real> bending_u, bending_v;  ///< to the second column, to the second row
   Real border_row_share = 1;  ///< of the stiffness, for springs that lie in the first or last row
   bool has_shear = false, has_bending = false;
+  Real excess = 0;  ///< beyond their limits springs are stiffer by so many times their stiffness
 };
 
 /// Scalars of work space that add_spring_forces needs; all zero before the first call, the kernel keeps what
@@ -30,5 +32,11 @@ void add_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
                        Components<const float> position, Components<float> force, float* work);
 void add_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
                        Components<const double> position, Components<double> force, double* work);
+
+/// The same where structural and shear springs have their limits.
+void add_limited_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                               Components<const float> position, Components<float> force, float* work);
+void add_limited_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                               Components<const double> position, Components<double> force, double* work);
 
 }  // namespace weft::kernels

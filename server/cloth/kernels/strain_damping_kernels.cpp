@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/multiversion.h"
+#include "cloth/kernels/link_rows.h"
 
 namespace weft::kernels {
 namespace {
@@ -17,11 +17,12 @@ struct Fields {
 
 /// Springs of one family that begin in one row, at the columns [begin, end); `first` is where the row begins,
 /// `other` where their second ends lie from the first.
-template <class Real>
+template <class Real, bool kBeyondLimits>
 [[gnu::always_inline]] inline void add_row(const SpringColumns<Real>& springs, Real factor,
                                            const Fields<Real>& fields, std::ptrdiff_t first,
                                            std::ptrdiff_t other, int begin, int end) {
   const Real* __restrict stiffness = springs.stiffness;
+  const Real limit_length = springs.limit_length;
   const Real* __restrict x = fields.position.x + first;
   const Real* __restrict y = fields.position.y + first;
   const Real* __restrict z = fields.position.z + first;
@@ -37,7 +38,11 @@ template <class Real>
     const Real squared = dx * dx + dy * dy + dz * dz + std::numeric_limits<Real>::min();
     const Real rate =
         dx * (ux[c] - ux[c + other]) + dy * (uy[c] - uy[c + other]) + dz * (uz[c] - uz[c + other]);
-    const Real along = -factor * stiffness[c] * (rate / squared);
+    Real along = -factor * stiffness[c] * (rate / squared);
+    if constexpr (kBeyondLimits) {
+      const Real past = std::sqrt(squared) - limit_length;
+      along *= unit_step(past, (past + std::abs(past)) / 2);
+    }
     work.x[c] = along * dx;
     work.y[c] = along * dy;
     work.z[c] = along * dz;
@@ -56,7 +61,7 @@ template <class Real>
   }
 }
 
-template <class Real>
+template <class Real, bool kBeyondLimits>
 [[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid, Real factor,
                                            const Fields<Real>& fields) {
   const std::ptrdiff_t stride = grid.stride;
@@ -64,16 +69,17 @@ template <class Real>
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share * factor : factor;
-    add_row(springs.along_u, share, fields, first, 1, 0, grid.cols - 1);
-    if (springs.has_bending) {
-      add_row(springs.bending_u, share, fields, first, 2, 0, grid.cols - 2);
-      if (r + 2 < grid.rows) add_row(springs.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
+    add_row<Real, kBeyondLimits>(springs.along_u, share, fields, first, 1, 0, grid.cols - 1);
+    if (!kBeyondLimits && springs.has_bending) {
+      add_row<Real, kBeyondLimits>(springs.bending_u, share, fields, first, 2, 0, grid.cols - 2);
+      if (r + 2 < grid.rows)
+        add_row<Real, kBeyondLimits>(springs.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
     }
     if (last) break;
-    add_row(springs.along_v, factor, fields, first, stride, 0, grid.cols);
+    add_row<Real, kBeyondLimits>(springs.along_v, factor, fields, first, stride, 0, grid.cols);
     if (springs.has_shear) {
-      add_row(springs.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
-      add_row(springs.rising, factor, fields, first, stride - 1, 1, grid.cols);
+      add_row<Real, kBeyondLimits>(springs.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
+      add_row<Real, kBeyondLimits>(springs.rising, factor, fields, first, stride - 1, 1, grid.cols);
     }
   }
 }
@@ -90,13 +96,27 @@ std::size_t strain_damping_work_size(const Grid& grid) { return 3 * static_cast<
 WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<float>& springs, const Grid& grid,
                                           Components<const float> position, Components<const float> change,
                                           float factor, Components<float> force, float* work) {
-  add_all<float>(springs, grid, factor, {position, change, force, work_row(grid, work)});
+  add_all<float, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});
 }
 
 WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<double>& springs, const Grid& grid,
                                           Components<const double> position, Components<const double> change,
                                           double factor, Components<double> force, double* work) {
-  add_all<double>(springs, grid, factor, {position, change, force, work_row(grid, work)});
+  add_all<double, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});
+}
+
+WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<float>& springs, const Grid& grid,
+                                         Components<const float> position, Components<const float> change,
+                                         float factor, Components<float> force, float* work) {
+  add_all<float, true>(springs, grid, factor * springs.excess,
+                       {position, change, force, work_row(grid, work)});
+}
+
+WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<double>& springs, const Grid& grid,
+                                         Components<const double> position, Components<const double> change,
+                                         double factor, Components<double> force, double* work) {
+  add_all<double, true>(springs, grid, factor * springs.excess,
+                        {position, change, force, work_row(grid, work)});
 }
 
 }  // namespace weft::kernels

@@ -16,4 +16,13 @@ void add_strain_damping(const SpringLattice<double>& springs, const Grid& grid,
                         Components<const double> position, Components<const double> change, double factor,
                         Components<double> force, double* work);
 
+/// The same of what structural and shear springs have beyond their limits alone: on end i
+/// -factor (excess k) n (n . (change_i - change_j)) of those that are longer.
+void add_limit_damping(const SpringLattice<float>& springs, const Grid& grid,
+                       Components<const float> position, Components<const float> change, float factor,
+                       Components<float> force, float* work);
+void add_limit_damping(const SpringLattice<double>& springs, const Grid& grid,
+                       Components<const double> position, Components<const double> change, double factor,
+                       Components<double> force, double* work);
+
 }  // namespace weft::kernels

@@ -15,11 +15,12 @@ constexpr int kGroup = 8;
 constexpr int round_up(int n, int to) { return (n + to - 1) / to * to; }
 
 /// Projects the springs from lane a[i] to lane b[i], i < count; no lane is met twice.
-template <class Real, bool kDamped>
+template <class Real, bool kDamped, bool kLimited>
 [[gnu::always_inline]] inline void project_run(Real* a, Real* b, const Real* __restrict stiffness, Real share,
                                                const XpbdSprings<Real>& springs, std::size_t stride,
                                                int count) {
   const Real rest_length = springs.rest_length, damping = springs.damping;
+  const Real limit_length = springs.limit_length, excess = springs.excess;
   const Real *ax = a, *ay = a + stride, *az = a + 2 * stride;
   const Real *bx = b, *by = b + stride, *bz = b + 2 * stride;
   Real *ux = a + QuarterRows::kMove * stride, *uy = ux + stride, *uz = uy + stride;
@@ -42,7 +43,13 @@ template <class Real, bool kDamped>
       shorter -= damping * (dx * (xa - xb) + dy * (ya - yb) + dz * (za - zb)) / length;
       weight *= Real(1) + damping;
     }
-    const Real factor = k * shorter / (length * (Real(1) + k * weight));
+    Real factor = k * shorter / (length * (Real(1) + k * weight));
+    if constexpr (kLimited) {
+      shorter -= excess * (length - limit_length);
+      weight += excess * (ma + mb);
+      const Real beyond = k * shorter / (length * (Real(1) + k * weight));
+      factor = beyond < factor ? beyond : factor;  // tension is negative here
+    }
     const Real fa = factor * ma, fb = factor * mb;
     ux[i] = xa + fa * dx;
     uy[i] = ya + fa * dy;
@@ -55,7 +62,7 @@ template <class Real, bool kDamped>
 
 /// Springs within a row: two quarters of the columns begin a spring of the first colour, two one of the
 /// second.
-template <class Real, bool kDamped>
+template <class Real, bool kDamped, bool kLimited>
 [[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
                                                        const XpbdSprings<Real>& springs, Real* sheet) {
   for (int r = 0; r < layout.rows; ++r) {
@@ -64,14 +71,14 @@ template <class Real, bool kDamped>
     for (int i = 0; i < 4; ++i) {
       const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
       const int left = layout.lane(col), right = layout.lane(col + springs.cols);
-      project_run<Real, kDamped>(row + left, row + right, springs.stiffness + left, share, springs,
-                                 layout.stride, layout.width);
+      project_run<Real, kDamped, kLimited>(row + left, row + right, springs.stiffness + left, share, springs,
+                                           layout.stride, layout.width);
     }
   }
 }
 
 /// Springs between rows: a row begins springs of one colour, the row at their other end of the other.
-template <class Real, bool kDamped>
+template <class Real, bool kDamped, bool kLimited>
 [[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
                                                         const XpbdSprings<Real>& springs, Real* sheet) {
   const int across = springs.cols < 0 ? -springs.cols : springs.cols;
@@ -82,36 +89,36 @@ template <class Real, bool kDamped>
       Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
       if (springs.cols < 0) std::swap(left, right);
       if (across == 0) {
-        project_run<Real, kDamped>(left, right, springs.stiffness, Real(1), springs, layout.stride,
-                                   round_up(4 * layout.width + 1, kGroup));
+        project_run<Real, kDamped, kLimited>(left, right, springs.stiffness, Real(1), springs, layout.stride,
+                                             round_up(4 * layout.width + 1, kGroup));
       } else {
         for (int col = 0; col < 4; ++col) {
           const int from = layout.lane(col), to = layout.lane(col + across);
-          project_run<Real, kDamped>(left + from, right + to, springs.stiffness + from, Real(1), springs,
-                                     layout.stride, layout.width);
+          project_run<Real, kDamped, kLimited>(left + from, right + to, springs.stiffness + from, Real(1),
+                                               springs, layout.stride, layout.width);
         }
       }
     }
   }
 }
 
-template <class Real, bool kDamped>
+template <class Real, bool kDamped, bool kLimited>
 [[gnu::always_inline]] inline void project_family(const QuarterRows& layout, const XpbdSprings<Real>& springs,
                                                   Real* sheet) {
   if (springs.rows == 0) {
-    project_within_rows<Real, kDamped>(layout, springs, sheet);
+    project_within_rows<Real, kDamped, kLimited>(layout, springs, sheet);
   } else {
-    project_between_rows<Real, kDamped>(layout, springs, sheet);
+    project_between_rows<Real, kDamped, kLimited>(layout, springs, sheet);
   }
 }
 
-template <class Real>
+template <class Real, bool kLimited>
 [[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
                                                Real* sheet) {
   if (springs.damping > Real(0)) {
-    project_family<Real, true>(layout, springs, sheet);
+    project_family<Real, true, kLimited>(layout, springs, sheet);
   } else {
-    project_family<Real, false>(layout, springs, sheet);
+    project_family<Real, false, kLimited>(layout, springs, sheet);
   }
 }
 
@@ -262,10 +269,18 @@ WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, cons
 }
 
 WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet) {
-  project_any(layout, springs, sheet);
+  project_any<float, false>(layout, springs, sheet);
+}
+WEFT_MULTIVERSION void project_limited(const QuarterRows& layout, const XpbdSprings<float>& springs,
+                                       float* sheet) {
+  project_any<float, true>(layout, springs, sheet);
 }
 WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet) {
-  project_any(layout, springs, sheet);
+  project_any<double, false>(layout, springs, sheet);
+}
+WEFT_MULTIVERSION void project_limited(const QuarterRows& layout, const XpbdSprings<double>& springs,
+                                       double* sheet) {
+  project_any<double, true>(layout, springs, sheet);
 }
 
 WEFT_MULTIVERSION void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,

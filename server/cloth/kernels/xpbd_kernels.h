@@ -31,6 +31,8 @@ struct XpbdSprings {
   Real border_row_share = 0;        ///< of the stiffness, for springs that lie in the first or last row
   const Real* stiffness = nullptr;  ///< k h^2, kg, at the lane of the left end; 0 where there is no spring
   Real damping = 0;                 ///< gamma = tau / h, if the springs resist the rate of their length too
+  Real limit_length = 0;            ///< m, beyond which project_limited has them stiffer
+  Real excess = 0;                  ///< by so many times their stiffness
 };
 
 /// The nodes as the rest of the program has them.
@@ -61,6 +63,10 @@ void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double
 /// moves have made the spring (Macklin et al. 2016, Eq. 26); coincident ends stay where they are.
 void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
+/// The same where springs stiffen. As its tension is the larger one of two straight lines in its length, a
+/// spring's multiplier is the larger one of those that either of them gives: no branch.
+void project_limited(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
+void project_limited(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 
 /// Takes over the projected moves d: v += (d - d predicted) / h, r += d. `row` as above.
 void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,

@@ -17,6 +17,13 @@ inline double damping_time(const std::vector<EffectDescription>& listed) {
   return 0;
 }
 
+template <class Description>
+bool lists(const std::vector<EffectDescription>& listed) {
+  return std::any_of(listed.begin(), listed.end(), [](const EffectDescription& effect) {
+    return std::holds_alternative<Description>(effect);
+  });
+}
+
 /// A sheet, its springs and effects, stepped by the integrator alone. A plate is clamped where the sheet is
 /// held when it is handed over.
 template <class Real>
@@ -33,16 +40,14 @@ struct Rig {
   Rig(Particles<Real> sheet, const Vec2& size, const Material& material, Discretization discretization,
       const std::vector<EffectDescription>& listed, const IntegratorDescription& stepping)
       : particles(std::move(sheet)),
-        springs(material, discretization, size, particles.grid(), damping_time(listed)),
+        springs(material, discretization, size, particles.grid(), damping_time(listed),
+                lists<StrainLimitEffect>(listed)),
         effects(make_effects<Real>(listed)),
         integrator(make_integrator<Real>(stepping)) {
     cloth.size = size;
     cloth.material = material;
     cloth.discretization = discretization;
-    const bool bends = std::any_of(listed.begin(), listed.end(), [](const EffectDescription& effect) {
-      return std::holds_alternative<PlateBendingEffect>(effect);
-    });
-    if (bends) plate.emplace(material.rigidity, size, particles.inverse_mass);
+    if (lists<PlateBendingEffect>(listed)) plate.emplace(material.rigidity, size, particles.inverse_mass);
   }
   AdvanceReport advance(double time, double dt) {
     return integrator->advance(

@@ -78,6 +78,7 @@ TEST(Reader, MaterialsByNameByNameWithChangesAndRaw) {
   Material silk = find_fabric("silk")->material;
   silk.damping = 0.25;
   silk.rigidity = {2e-6, 2e-6, 2e-6};  // one number for all three
+  silk.limit = {0.02, 0.03, 0.2, 50};
   EXPECT_EQ(cloths.at(0).material, silk);
   EXPECT_EQ(cloths.at(1).material, find_fabric("denim")->material);
   EXPECT_EQ(cloths.at(2).material, (Material{0.2, 1000, 0, 0, 0, {2e-5, 1e-5, 0}}));
@@ -157,7 +158,7 @@ TEST(Reader, PathsOfObstacles) {
 
 TEST(Reader, EffectsWindAndStepping) {
   const SimulationDescription simulation = read_good("everything").simulation;
-  ASSERT_EQ(simulation.effects.size(), 7u);
+  ASSERT_EQ(simulation.effects.size(), 8u);
   EXPECT_EQ(std::get<GravityEffect>(simulation.effects[0]).acceleration, Vec3(0, 0, -1.62));
   EXPECT_TRUE(std::holds_alternative<DampingEffect>(simulation.effects[1]));
   EXPECT_EQ(std::get<PaperWindEffect>(simulation.effects[2]).factor, 2);
@@ -167,8 +168,9 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_EQ(std::get<AerodynamicsEffect>(simulation.effects[3]).lift, 0.5);
   EXPECT_EQ(std::get<StrainDampingEffect>(simulation.effects[4]).time, 0.005);
   EXPECT_TRUE(std::holds_alternative<PlateBendingEffect>(simulation.effects[5]));
-  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[6]).thickness, 0.003);
-  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[6]).friction, 0.5);
+  EXPECT_TRUE(std::holds_alternative<StrainLimitEffect>(simulation.effects[6]));
+  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[7]).thickness, 0.003);
+  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[7]).friction, 0.5);
   EXPECT_LT((simulation.wind.direction - Vec3(0.6, 0, -0.8)).norm(), 1e-15);  // 3, 4, 5
   EXPECT_EQ(simulation.wind.speed, 7);
   EXPECT_EQ(simulation.wind.gusts.intensity, 0.25);
