@@ -26,6 +26,8 @@ class CollisionNet {
   /// Features are kept at least `gap` apart, m, or half as near as they were.
   explicit CollisionNet(double gap) : gap_(gap) {}
 
+  double gap() const { return gap_; }
+
   NetReport apply(FeatureSearch& search, LayerNodes& nodes);
   /// Of the last apply(): by how much each node was moved is end - this.
   const std::vector<Vec3>& untouched_end() const { return untouched_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace weft {
 namespace {
@@ -71,6 +72,17 @@ double longest(const Vec3& a, const Vec3& b) { return std::sqrt(std::max(a.squar
 
 Nearness nearness(FeaturePair::Kind kind, const FourPoints& points) {
   return kind == FeaturePair::Kind::node_triangle ? node_triangle(points) : edge_edge(points);
+}
+
+Vec3 contact_normal(FeaturePair::Kind kind, const FourPoints& points, const Nearness& near) {
+  const double distance = near.apart.norm();
+  if (distance == 0) return Vec3::Zero();
+  if (kind == FeaturePair::Kind::node_triangle) {
+    const Vec3 normal = (points[2] - points[1]).cross(points[3] - points[1]).normalized();
+    const double height = normal.dot(near.apart);
+    if (std::abs(height) > std::numbers::sqrt2 / 2 * distance) return height > 0 ? normal : Vec3(-normal);
+  }
+  return near.apart / distance;
 }
 
 double reach(FeaturePair::Kind kind, const FourPoints& move) {

@@ -31,6 +31,11 @@ struct Nearness {
 /// 2005, 5.1.5 and 5.1.9). Degenerate triangles and edges are taken as what they shrank to.
 Nearness nearness(FeaturePair::Kind kind, const FourPoints& points);
 
+/// The direction in which features so near touch, from the second to the first: the triangle's normal where
+/// the node is over it, be it beyond its rim by less than it is high, or else the shortest way. (Along the
+/// shortest way a sheet that slides would stumble with its rim over every node beneath.) Zero if they meet.
+Vec3 contact_normal(FeaturePair::Kind kind, const FourPoints& points, const Nearness& near);
+
 /// Bound on how much nearer features come whose nodes move so, m; the same for a common motion added.
 double reach(FeaturePair::Kind kind, const FourPoints& move);
 

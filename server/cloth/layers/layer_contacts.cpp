@@ -1,6 +1,8 @@
 #include "cloth/layers/layer_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "cloth/solver/node_vector.h"
 
@@ -34,7 +36,8 @@ LayerContacts<Real>::LayerContacts(const LayerNodes& nodes, std::size_t cloth,
       parameters_(parameters),
       force_(2 * static_cast<std::size_t>(end_ - first_), 0.0F),
       stiffness_(end_ - first_, kSoft),
-      strained_(end_ - first_, 0) {}
+      strained_(end_ - first_, 0),
+      given_(end_ - first_, Vec3(0, 0, 0)) {}
 
 template <class Real>
 int LayerContacts<Real>::memory_of(const LayerPair& pair) const {
@@ -44,71 +47,48 @@ int LayerContacts<Real>::memory_of(const LayerPair& pair) const {
 }
 
 template <class Real>
-double LayerContacts<Real>::yielding(const LayerPair& pair, const FourPoints& own_velocity) const {
-  double approach = 0, own_share = 0, other_share = 0;  // shares: inverse masses along the normal
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t n = pair.features.node[i];
-    const double w = pair.near.weight[i];
-    approach += w * pair.normal.dot(own(n) ? own_velocity[i] : nodes_.velocity[n]);
-    (own(n) ? own_share : other_share) += w * w * nodes_.inverse_mass[n];
-  }
-  if (approach >= 0 || other_share == 0) return 0;
-  return -approach * other_share / (own_share + other_share);
-}
-
-template <class Real>
 void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep& substep) {
   constraints_.clear();
+  seconds_ = substep.seconds;
+  if (substep.from == 0) given_.assign(given_.size(), Vec3(0, 0, 0));
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
-  const double dt = substep.step_seconds(), h = substep.seconds;
+  const double past = substep.from * substep.step_seconds(), h = substep.seconds;
   const double drop = standard_gravity().norm() * h * h;
   for (const LayerPair& pair : pairs_) {
     Constraint c;
     c.normal = pair.normal;
     c.memory = memory_of(pair);
-    FourPoints own_velocity;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t n = pair.features.node[i];
-      if (own(n)) own_velocity[i] = at(velocity, n - first_);
-    }
-    double distance = 0, closing = 0, others = 0;
-    c.slid.setZero();
+    double distance = 0, others = 0, others_share = 0;  // share: inverse mass along the normal
     Vec3 slip(0, 0, 0);
-    const double given = yielding(pair, own_velocity);
+    c.slid.setZero();
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       const double w = pair.near.weight[i];
-      Vec3 now, way;
-      bool free = false;
       if (own(n)) {
-        now = at(position, n - first_);
-        free = nodes_.inverse_mass[n] > 0;
-        way = free ? Vec3(h * own_velocity[i]) : Vec3(0, 0, 0);
         c.coupling.node[i] = n - first_;
-        c.coupling.weight[i] = free ? w : 0.0;
-      } else {
-        now = nodes_.start[n] + substep.from * dt * nodes_.velocity[n];
-        way = h * nodes_.velocity[n];
-        c.coupling.weight[i] = 0;
+        distance += w * c.normal.dot(at(position, n - first_));
+        if (nodes_.inverse_mass[n] == 0) continue;
+        c.coupling.weight[i] = w;
+        slip += w * h * at(velocity, n - first_);
+        continue;
       }
-      distance += w * c.normal.dot(now);
-      closing += w * c.normal.dot(way);
-      slip += w * way;
-      if (!free) {
-        others += w * c.normal.dot(way);
-        c.slid += w * way;
-      }
+      const Vec3 v = nodes_.velocity[n] + past * nodes_.acceleration[n];
+      const Vec3 way = h * (v + h * nodes_.acceleration[n]);
+      distance += w * c.normal.dot(nodes_.start[n] + past * v);
+      others += w * c.normal.dot(way);
+      others_share += w * w * nodes_.inverse_mass[n];
+      c.slid += w * way;
     }
-    const bool foreign = !std::all_of(pair.features.node.begin(), pair.features.node.end(),
-                                      [&](std::uint32_t n) { return own(n); });
-    if (foreign) others += h * given;
-    c.room = distance + others - led(distance, pair.gap);
-    c.gap = pair.gap;
-    c.kept = pair.gap - led(distance, pair.gap);
-    const float pressed = c.memory >= 0 ? force_[static_cast<std::size_t>(c.memory)] : 0.0F;
+    slip += c.slid;
+    const double wanted = led(distance, pair.gap), closing = c.normal.dot(slip);
     if (distance + closing - drop > pair.gap) continue;
-    c.acts = pressed > 0 || distance + closing + (foreign ? h * given : 0) < led(distance, pair.gap);
+    c.room = distance + others - wanted;
+    c.gap = pair.gap;
+    c.kept = pair.gap - wanted;
+    c.inertia = others_share > 0 ? 1 / (h * h * others_share) : std::numeric_limits<double>::infinity();
+    const float pressed = c.memory >= 0 ? force_[static_cast<std::size_t>(c.memory)] : 0.0F;
+    c.acts = pressed > 0 || distance + closing < wanted;
     c.slid = across(c.slid, c.normal);
     c.sliding = across(slip, c.normal).norm();
     c.holds = parameters_.friction * static_cast<double>(pressed);
@@ -135,6 +115,11 @@ Vec3 LayerContacts<Real>::slip(const Constraint& c, kernels::Components<const Re
 }
 
 template <class Real>
+Vec3 LayerContacts<Real>::force_at(const Constraint& c, kernels::Components<const Real> move) const {
+  return -c.stiffness * room(c, move) * c.normal - c.friction * slip(c, move);
+}
+
+template <class Real>
 void LayerContacts<Real>::add_to(kernels::Components<Real> b, NodeCouplings<Real>& couplings,
                                  const Real* diagonal, kernels::Components<const Real> move) {
   couplings.clear();
@@ -150,14 +135,15 @@ void LayerContacts<Real>::add_to(kernels::Components<Real> b, NodeCouplings<Real
       if (c.coupling.weight[i] != 0) multiple = std::max(multiple, stiffness_[c.coupling.node[i]]);
     }
     c.stiffness = static_cast<double>(multiple) / share;
-    double friction = 0;
-    if (c.holds > 0) friction = c.holds < c.stiffness * c.sliding ? c.holds / c.sliding : c.stiffness;
-    const Vec3 force = -c.stiffness * room(c, move) * c.normal - friction * slip(c, move);
+    c.stiffness = 1 / (1 / c.stiffness + 1 / c.inertia);
+    c.friction = 0;
+    if (c.holds > 0) c.friction = c.holds < c.stiffness * c.sliding ? c.holds / c.sliding : c.stiffness;
+    const Vec3 force = force_at(c, move);
     for (std::size_t i = 0; i < 4; ++i) {
       if (c.coupling.weight[i] != 0) add(b, c.coupling.node[i], c.coupling.weight[i] * force);
     }
-    c.coupling.stiffness =
-        (c.stiffness - friction) * c.normal * c.normal.transpose() + friction * Eigen::Matrix3d::Identity();
+    c.coupling.stiffness = (c.stiffness - c.friction) * c.normal * c.normal.transpose() +
+                           c.friction * Eigen::Matrix3d::Identity();
     couplings.add(c.coupling);
   }
 }
@@ -199,9 +185,12 @@ void LayerContacts<Real>::finish(kernels::Components<const Real> move) {
   struck_.clear();
   std::fill(force_.begin(), force_.end(), 0.0F);
   for (const Constraint& c : constraints_) {
-    if (!c.acts || c.memory < 0) continue;
+    if (!c.acts) continue;
     const double force = -c.stiffness * room(c, move);
-    if (force > 0) force_[static_cast<std::size_t>(c.memory)] = static_cast<float>(force);
+    if (c.memory >= 0 && force > 0) force_[static_cast<std::size_t>(c.memory)] = static_cast<float>(force);
+    if (!std::isfinite(c.inertia)) continue;
+    const Vec3 impulse = seconds_ * force_at(c, move);
+    for (std::size_t i = 0; i < 4; ++i) given_[c.coupling.node[i]] += c.coupling.weight[i] * impulse;
   }
 }
 
@@ -210,28 +199,30 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
   struck_.clear();
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
+  const double past = substep.to * substep.step_seconds();
+  const double part = 1 - std::pow(1 - kLedApart, substep.to - substep.from);
   for (const LayerPair& pair : pairs_) {
     FourPoints x, v;
-    double share = 0;  // inverse mass along the normal
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       if (own(n)) {
         x[i] = at<Real>(position, n - first_);
         v[i] = at<Real>(velocity, n - first_);
       } else {
-        x[i] = nodes_.start[n] + substep.to * substep.step_seconds() * nodes_.velocity[n];
         v[i] = nodes_.velocity[n];
+        x[i] = nodes_.start[n] + past * v[i];
       }
     }
     const Nearness near = nearness(pair.features.kind, x);
-    double distance = near.apart.norm();
+    Vec3 normal = contact_normal(pair.features.kind, x, near);
+    double distance = normal.dot(near.apart);
     if (distance == 0) continue;
-    Vec3 normal = near.apart / distance;
     if (normal.dot(pair.normal) < 0) {  // they have passed each other
       normal = -normal;
       distance = -distance;
     }
     if (distance >= pair.gap) continue;
+    double share = 0;  // inverse mass along the normal
     Vec3 relative(0, 0, 0);
     for (std::size_t i = 0; i < 4; ++i) {
       const double w = near.weight[i];
@@ -239,15 +230,18 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
       relative += w * v[i];
     }
     if (share == 0) continue;
-    const double approach = -relative.dot(normal);
+    const double approach = std::max(0.0, -relative.dot(normal));
     Vec3 impulse(0, 0, 0);
     if (approach > 0) {
-      const Vec3 sliding = relative + approach * normal;
+      const Vec3 sliding = across(relative, normal);
       const double speed = sliding.norm();
       impulse = approach / share * normal;
       if (speed > 0) impulse -= std::min(parameters_.friction * approach / speed, 1.0) / share * sliding;
     }
-    const Vec3 push = (led(distance, pair.gap) - distance) / share * normal;
+    // Back by as much as they came nearer in the substep, and a part of what they lack.
+    const double apart =
+        std::min(pair.gap - distance, approach * substep.seconds + part * (pair.gap - distance));
+    const Vec3 push = apart / share * normal;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       const double w = near.weight[i] * nodes_.inverse_mass[n];

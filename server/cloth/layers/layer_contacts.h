@@ -8,7 +8,7 @@ namespace weft {
 /// Two features of cloth that lie on each other or will in the step.
 struct LayerPair {
   FeaturePair features;
-  Nearness near;  ///< as the step begins
+  Nearness near;  ///< where they meet, or else as the step is expected to end
   Vec3 normal;    ///< from the second feature to the first
   double gap;     ///< to be kept between them, m
   int side = 0;   ///< of the first node's sheet on which the triangle lies, 0 or 1
@@ -32,8 +32,11 @@ struct LayerParameters {
 ///
 /// To an explicit substep it is an inelastic impulse.
 ///
-/// Nodes of another cloth are seen going on with their velocity; approached, along the normal with the one
-/// that a plastic hit would leave them, so that two cloths, each seeing the other so, keep their momentum.
+/// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
+/// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
+/// other. To an implicit step these masses also have the acceleration they had but for contact, and are in
+/// series with the constraint's spring: so a cloth feels the weight of what lies on it. (In explicit steps
+/// that acceleration is mostly the stiff springs' noise, and throws cloths apart.)
 template <class Real>
 class LayerContacts {
  public:
@@ -75,6 +78,8 @@ class LayerContacts {
 
   /// Nodes that were moved after the last step, by no force: their motion says nothing about what follows.
   std::vector<std::size_t>& struck() { return struck_; }
+  /// What other cloths gave each node in the last implicit step, N s.
+  const std::vector<Vec3>& given() const { return given_; }
 
  private:
   struct Constraint {
@@ -84,20 +89,20 @@ class LayerContacts {
     Vec3 slid;       ///< what the others slide, m
     double sliding;  ///< along the surface, if all go on as before, m
     double holds;    ///< at most, by friction, N
-    double stiffness = 0;
+    double stiffness = 0, friction = 0;  ///< N/m
     bool acts = true;
-    double kept = 0;  ///< gap that is wanted in the end, less what is wanted now, m
-    double gap = 0;   ///< wanted in the end, m
-    int memory = -1;  ///< index into force_
+    double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
+    double kept = 0;     ///< gap that is wanted in the end, less what is wanted now, m
+    double gap = 0;      ///< wanted in the end, m
+    int memory = -1;     ///< index into force_
   };
   bool own(std::uint32_t node) const { return node >= first_ && node < end_; }
   /// Where force_ keeps what presses on the pair's node from that side; -1 for edges and others' nodes.
   int memory_of(const LayerPair& pair) const;
   double room(const Constraint& c, kernels::Components<const Real> move) const;
+  Vec3 force_at(const Constraint& c, kernels::Components<const Real> move) const;
   void adapt(kernels::Components<const Real> move);
   Vec3 slip(const Constraint& c, kernels::Components<const Real> move) const;
-  /// What others' nodes are faster by, along the pair's normal, for being pushed by this cloth's, m/s.
-  double yielding(const LayerPair& pair, const FourPoints& own_velocity) const;
 
   const LayerNodes& nodes_;
   std::uint32_t first_, end_;  ///< of this cloth's nodes
@@ -108,6 +113,8 @@ class LayerContacts {
   std::vector<float> stiffness_;  ///< at each node, as a multiple of the inertia
   std::vector<char> strained_;    ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
   std::vector<std::size_t> struck_;
+  std::vector<Vec3> given_;
+  double seconds_ = 0;  ///< of the substep
 };
 
 extern template class LayerContacts<float>;

@@ -50,7 +50,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   }
   nodes_.first.push_back(count);
   nodes_.start.assign(count, Vec3::Zero());
-  nodes_.end = nodes_.velocity = nodes_.start;
+  nodes_.end = nodes_.velocity = nodes_.acceleration = nodes_.start;
   nodes_.inverse_mass.assign(count, 0.0);
   nodes_.tangled.assign(count, 0);
   net_ = CollisionNet(kNetPart * least);
@@ -91,19 +91,25 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   lay_out(cloths);
   // While all stand still the pairs of the last step are right, should one wake in this one.
   if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
+  const bool anew = !found_;
   found_ = true;
   read(cloths, nodes_.start);
   read_masses(cloths);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     const Particles<Real>& particles = cloths[k].particles();
     const auto v = kernels::components(particles.velocity);
-    const bool still = stands_still(cloths[k]);
     for (std::size_t i = 0; i < grids_[k].size(); ++i) {
       const std::size_t n = nodes_.first[k] + i;
-      nodes_.velocity[n] = still || nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
-      nodes_.end[n] = nodes_.start[n] + dt * nodes_.velocity[n];
+      const Vec3 before = nodes_.velocity[n];
+      nodes_.velocity[n] = nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
+      nodes_.acceleration[n] = Vec3(0, 0, 0);
+      if (anew || nodes_.inverse_mass[n] == 0) continue;
+      nodes_.acceleration[n] =
+          (nodes_.velocity[n] - before - nodes_.inverse_mass[n] * contacts_[k]->given()[i]) / dt;
     }
   }
+  std::transform(nodes_.start.begin(), nodes_.start.end(), nodes_.velocity.begin(), nodes_.end.begin(),
+                 [&](const Vec3& x, const Vec3& v) { return x + dt * v; });
   if (may_be_tangled_) find_tangles();
   share_pairs(cloths, dt);
 }
@@ -150,16 +156,20 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   for (const FeaturePair& features : search_.find(nodes_, parameters_.thickness + drop)) {
     LayerPair pair;
     pair.features = features;
-    pair.near = nearness(features.kind, points_of(features, nodes_.start));
-    double distance = features.distance;
-    if (distance < kTouching) may_be_tangled_ = true;
-    if (distance == 0) continue;
     const std::size_t one = sheet_of(features.node[0]), other = sheet_of(features.node[2]);
-    pair.normal = pair.near.apart / distance;
+    if (features.distance < kTouching) may_be_tangled_ = true;
+    // As they will lie, or, if they would pass through each other, as they meet: what slides past something
+    // on its way does not touch it.
+    const FourPoints ends = points_of(features, nodes_.end);
+    FourPoints points = points_of(features, nodes_.start);
+    const FourPoints way{ends[0] - points[0], ends[1] - points[1], ends[2] - points[2], ends[3] - points[3]};
+    const auto meet = first_contact(features.kind, features.distance, points, way, net_.gap());
+    for (std::size_t i = 0; i < 4; ++i) points[i] += meet.value_or(1) * way[i];
+    pair.near = nearness(features.kind, points);
+    pair.normal = contact_normal(features.kind, points, pair.near);
+    double distance = 0;  // in the end
+    for (std::size_t i = 0; i < 4; ++i) distance += pair.near.weight[i] * pair.normal.dot(ends[i]);
     pair.gap = std::min(gaps_[one], gaps_[other]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      distance += dt * pair.near.weight[i] * pair.normal.dot(nodes_.velocity[features.node[i]]);
-    }
     const bool node_on_triangle = features.kind == FeaturePair::Kind::node_triangle;
     if (!node_on_triangle) pair.gap *= kEdgePart;
     if (distance - drop > pair.gap) continue;

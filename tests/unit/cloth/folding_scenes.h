@@ -1,5 +1,6 @@
 #pragma once
 /// Scenes in which cloth meets cloth.
+#include <cmath>
 #include <numbers>
 
 #include "cloth/simulation.h"
@@ -64,6 +65,55 @@ inline SimulationDescription pulled_off(int level, const IntegratorDescription& 
   ball.radius = 0.3;
   ball.friction = 0.3;
   scene.balls = {ball};
+  return scene;
+}
+
+/// A square of 1 m over a line, its halves spread by 40 degrees either way: they swing together and clap.
+/// Nothing but gravity and the pins acts on it.
+inline SimulationDescription clapping(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1, 1}, level, stepping);
+  const Grid grid = scene.cloths[0].base_cells.at(level);
+  const double angle = 40 * std::numbers::pi / 180;
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const double u = double(c) / (grid.cols - 1) - 0.5, v = double(r) / (grid.rows - 1) - 0.5;
+      scene.cloths[0].nodes.push_back({u * std::sin(angle), -std::abs(u) * std::cos(angle), v});
+    }
+  }
+  scene.cloths[0].pins = {PinRegion{0.5, 0.5, 0, 1}};
+  return scene;
+}
+
+/// A small cloth that falls flat onto a larger one, which hangs by its four corners.
+inline SimulationDescription caught(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1, 1}, level, stepping);
+  const Quaternion flat(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  scene.cloths[0].orientation = flat;
+  scene.cloths[0].pins = {PinRegion{0, 0, 0, 0}, PinRegion{1, 1, 0, 0}, PinRegion{0, 0, 1, 1},
+                          PinRegion{1, 1, 1, 1}};
+  ClothDescription small = scene.cloths[0];
+  small.size = {0.5, 0.5};
+  small.pins.clear();
+  small.position = {0.03, 0.3, 0.05};
+  small.orientation = Quaternion(Eigen::AngleAxisd(0.3, Vec3::UnitY())) * flat;
+  scene.cloths.push_back(small);
+  return scene;
+}
+
+/// A small cloth on a large one that is held everywhere, on a slope that falls along +x.
+inline SimulationDescription on_a_slope(double degrees, double friction,
+                                        const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({3, 1}, 4, stepping);
+  scene.effects.back() = ClothContactEffect{0.005, friction};
+  const Quaternion slope = Eigen::AngleAxisd(-degrees * std::numbers::pi / 180, Vec3::UnitZ()) *
+                           Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX());
+  scene.cloths[0].orientation = slope;
+  scene.cloths[0].pins = {PinRegion{0, 1, 0, 1}};
+  ClothDescription small = scene.cloths[0];
+  small.size = {0.4, 0.4};
+  small.pins.clear();
+  small.position = slope * Vec3(-0.9, 0.01, 0.005);
+  scene.cloths.push_back(small);
   return scene;
 }
 

@@ -246,6 +246,27 @@ TEST(Threads, ClothsInTurbulenceHaveTheSameBitsOnAnyNumber) {
   expect_same_bits(scene, kAll, kStackSteps / 10, 0);
 }
 
+SimulationDescription cloths_on_one_another() {
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.size = {1, 1};
+  cloth.min_level = cloth.max_level = cloth.initial_level = 4;
+  cloth.orientation = Eigen::AngleAxisd(-1.5707963, Vec3::UnitX());
+  cloth.pins = {PinRegion{0, 0, 0, 0}, PinRegion{1, 1, 0, 0}};
+  scene.cloths = {cloth, cloth, cloth, cloth};
+  for (std::size_t i = 1; i < 4; ++i) {
+    scene.cloths[i].pins.clear();
+    scene.cloths[i].size = {0.5, 0.5};
+    scene.cloths[i].position = {0.1, 0.05 * static_cast<double>(i), -0.2};
+  }
+  scene.effects = {GravityEffect{}, ClothContactEffect{}};
+  return scene;
+}
+
+TEST(Threads, ClothsOnOneAnotherHaveTheSameBitsOnAnyNumber) {
+  expect_same_bits(cloths_on_one_another(), kAll, kStackSteps / 4, 0);
+}
+
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {
   expect_same_bits(large_sheet(), kImplicit, kLargeSteps, 1);
 }
