@@ -1,7 +1,9 @@
 #pragma once
 /// The host's own messages of PROTOCOL.md section 3, as JSON.
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cloth/simulation.h"
 #include "host/seat.h"
@@ -17,6 +19,8 @@ struct SceneState {
 
 nlohmann::json wind_json(const Wind& wind);
 nlohmann::json balls_json(const Colliders& colliders);
+/// What /v1/scenes/NAME/meshes/K answers for each of the obstacles; nullptr where that is no mesh.
+std::vector<std::shared_ptr<const std::string>> mesh_texts(const SimulationDescription& description);
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);
