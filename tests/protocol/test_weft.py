@@ -147,7 +147,9 @@ class Client(unittest.IsolatedAsyncioTestCase):
             if "Upgrade" in headers:
                 return None
             asked.append(path)
-            return (200, [], json.dumps(surface).encode()) if path.endswith("/1") else (404, [], b"there is no such mesh")
+            if path.endswith("/1"):
+                return http.HTTPStatus.OK, [], json.dumps(surface).encode()
+            return http.HTTPStatus.NOT_FOUND, [], b"there is no such mesh"
 
         async with Server(process_request=process) as server, await weft.connect(server.url) as scene:
             self.assertEqual(await scene.surface(1), surface)
