@@ -195,6 +195,7 @@ function start(settings) {
       tellNothing();
       cost.begin();
     },
+    surface: (message) => show.setSurface(message),
     event: (message) => {
       if (message.wind) {
         show.setWind(message.wind);

@@ -1,10 +1,13 @@
-import {BoxGeometry, CapsuleGeometry, Group, Mesh, MeshStandardMaterial, PlaneGeometry, Vector3} from './three/three.module.js';
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Group, Mesh, MeshStandardMaterial, PlaneGeometry, Vector3,
+} from './three/three.module.js';
+import {creased} from './creased.js';
 
 const kColour = 0xb9b2a6;
 const kPlaneSide = 40;  // m; a plane has no end
 const kGap = 0.004;  // m; nodes lie on the surface, and would flicker through it
 
-/** What stands in the scene, or moves as the frames tell: planes, boxes and capsules. */
+/** What stands in the scene, or moves as the frames tell: planes, boxes, capsules, and meshes as soon as they have come. */
 export class ObstaclesView {
   constructor() {
     this.group = new Group();
@@ -18,6 +21,15 @@ export class ObstaclesView {
     this.clear();
     this.meshes = obstacles.map((obstacle) => this.#mesh(obstacle));
     for (const mesh of this.meshes) if (mesh) this.group.add(mesh);
+  }
+
+  /** Gives an obstacle, by its place in the scene, its surface. */
+  setSurface(index, {vertices, triangles}) {
+    const {geometry} = this.meshes[index];
+    const {positions, normals} = creased(vertices, triangles, {inset: kGap});
+    geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    geometry.computeBoundingSphere();
   }
 
   /** Puts those that moved on their way from `before` to `after` by `share`, the others where `scene` has them. */
@@ -56,6 +68,7 @@ export class ObstaclesView {
     const shrunk = (length) => Math.max(length - kGap, length / 2);
     if (obstacle.shape === 'box') mesh.geometry = new BoxGeometry(...obstacle.size.map((length) => 2 * shrunk(length / 2)));
     else if (obstacle.shape === 'capsule') mesh.geometry = new CapsuleGeometry(shrunk(obstacle.radius), obstacle.length, 8, 24);
+    else if (obstacle.shape === 'mesh' || obstacle.shape === 'convex') mesh.geometry = new BufferGeometry();
     else return null;  // of a newer server
     this.#place(mesh, obstacle);
     mesh.castShadow = true;

@@ -63,6 +63,13 @@ export class Show {
     this.stage.changed = true;
   }
 
+  /** Takes the surface of one of the scene's obstacles. */
+  setSurface({scene, obstacle, surface}) {
+    if (scene !== this.description?.name) return;  // of the one before
+    this.obstacles.setSurface(obstacle, surface);
+    this.stage.changed = true;
+  }
+
   get hasWind() {
     return this.description?.effects.some((effect) => kWindEffects.includes(effect)) ?? false;
   }

@@ -12,7 +12,8 @@
  *   {kind: 'state', state: 'open'}
  *   {kind: 'state', state: 'lost', reason, retryMs}      tries again by itself
  *   {kind: 'state', state: 'refused', reason, scenes}    there is no such scene; waits for another 'open'
- *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}
+ *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}, or {op: 'surface', scene, obstacle,
+ *                                   surface}: what one of the scene's meshes looks like
  *   {kind: 'reply', key, message | error}
  *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
  */
@@ -62,7 +63,11 @@ async function open(attempt = 0) {
     WebSocket: CountingSocket,
     client: 'weft page',
     reconnect: true,
-    onmessage: (message) => mine === client && self.postMessage({kind: 'message', message}),
+    onmessage: (message) => {
+      if (mine !== client) return;
+      self.postMessage({kind: 'message', message});
+      if (message.op === 'scene') passOnSurfaces(mine, message);
+    },
     onframe: (frame) => mine === client && passOn(frame),
     onstate: (state, why) => mine === client && follow(mine, state, why),
   }));
@@ -93,6 +98,16 @@ async function listScenes() {
     return answer.ok ? (await answer.json()).scenes : null;
   } catch {
     return null;
+  }
+}
+
+/** Asks for what the scene's meshes look like. One that does not come is not drawn. */
+async function passOnSurfaces(mine, {name, obstacles = []}) {
+  for (const [obstacle, {shape}] of obstacles.entries()) {
+    if (shape !== 'mesh' && shape !== 'convex') continue;
+    const surface = await mine.surface(obstacle).catch(() => null);
+    if (mine !== client || mine.scene.name !== name) return;
+    if (surface) self.postMessage({kind: 'message', message: {op: 'surface', scene: name, obstacle, surface}});
   }
 }
 

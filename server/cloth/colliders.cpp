@@ -28,10 +28,14 @@ Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
   } else if (const auto* box = std::get_if<BoxDescription>(&description.shape)) {
     shape = Box{box->size / 2};
     obstacle.pose.orientation = box->orientation;
+  } else if (const auto* capsule = std::get_if<CapsuleDescription>(&description.shape)) {
+    shape = Capsule{capsule->length / 2, capsule->radius};
+    obstacle.pose.orientation = capsule->orientation;
   } else {
-    const auto& capsule = std::get<CapsuleDescription>(description.shape);
-    shape = Capsule{capsule.length / 2, capsule.radius};
-    obstacle.pose.orientation = capsule.orientation;
+    const auto& mesh = std::get<MeshDescription>(description.shape);
+    shape = Mesh{mesh.surface.get()};
+    obstacle.surface = mesh.surface;
+    obstacle.pose.orientation = mesh.orientation;
   }
   obstacle.path = description.path;
   obstacle.loops = description.loop;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,6 +35,7 @@ struct Ball {
 /// An obstacle as it is now. During a step it goes and turns evenly from pose to pose.
 struct Obstacle {
   Solid solid;
+  std::shared_ptr<const TriangleMesh> surface;  ///< that the solid's shape is within, if it is a mesh
   Pose pose;            ///< at the end of the step; a plane's orientation says nothing
   bool mobile = false;  ///< follows a path, or was moved since the start
   std::vector<PoseWaypoint> path;

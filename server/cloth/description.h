@@ -2,6 +2,7 @@
 /// What a simulation is made from: plain values, checked by whoever fills them (server/scene for files).
 /// Field names equal the names in scene files.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,6 +15,8 @@
 #include "cloth/wind/wind.h"
 
 namespace weft {
+
+class TriangleMesh;
 
 // --- Effects: only those listed in a simulation are built and cost anything (D5) ---
 
@@ -161,9 +164,17 @@ struct CapsuleDescription {
   Quaternion orientation = Quaternion::Identity();  ///< local to world
   static constexpr const char* kName = "capsule";
 };
+/// Within a closed surface of triangles around `position`, which is the origin of its vertices.
+struct MeshDescription {
+  std::shared_ptr<const TriangleMesh> surface;
+  Quaternion orientation = Quaternion::Identity();  ///< local to world
+  bool convex = false;                              ///< known to be: told to viewers
+  static constexpr const char* kName = "mesh";
+  static constexpr const char* kConvexName = "convex";
+};
 /// Something that stands where it is or goes where it is told (path, commands); the cloth yields.
 struct ObstacleDescription {
-  std::variant<PlaneDescription, BoxDescription, CapsuleDescription> shape;
+  std::variant<PlaneDescription, BoxDescription, CapsuleDescription, MeshDescription> shape;
   Vec3 position{0.0, 0.0, 0.0};
   double friction = 0.0;  ///< as a ball's
   /// Overrides position and orientation. Planes keep their normal.

@@ -1,6 +1,9 @@
 #include "host/scene_messages.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "cloth/contact/triangle_mesh.h"
 
 namespace weft::host {
 namespace {
@@ -35,12 +38,17 @@ json obstacle_json(const ObstacleDescription& obstacle) {
     message["shape"] = box->kName;
     message["size"] = vector_json(box->size);
     message["quaternion"] = quaternion_json(box->orientation);
+  } else if (const auto* capsule = std::get_if<CapsuleDescription>(&obstacle.shape)) {
+    message["shape"] = capsule->kName;
+    message["radius"] = capsule->radius;
+    message["length"] = capsule->length;
+    message["quaternion"] = quaternion_json(capsule->orientation);
   } else {
-    const auto& capsule = std::get<CapsuleDescription>(obstacle.shape);
-    message["shape"] = capsule.kName;
-    message["radius"] = capsule.radius;
-    message["length"] = capsule.length;
-    message["quaternion"] = quaternion_json(capsule.orientation);
+    const auto& mesh = std::get<MeshDescription>(obstacle.shape);
+    message["shape"] = mesh.convex ? mesh.kConvexName : mesh.kName;
+    message["vertices"] = mesh.surface->list().vertices.size();
+    message["triangles"] = mesh.surface->list().triangles.size();
+    message["quaternion"] = quaternion_json(mesh.orientation);
   }
   return message;
 }
@@ -59,6 +67,19 @@ json zone_json(const WindZone& zone) {
     message["radius"] = sphere.radius;
   }
   return message;
+}
+
+/// To a micrometre.
+std::string mesh_text(const TriangleMesh& mesh) {
+  constexpr double kMicrometres = 1e6;
+  json vertices = json::array(), triangles = json::array();
+  for (const Vec3& vertex : mesh.list().vertices) {
+    for (const double x : vertex) vertices.push_back(std::round(x * kMicrometres) / kMicrometres);
+  }
+  for (const std::array<int, 3>& triangle : mesh.list().triangles) {
+    for (const int corner : triangle) triangles.push_back(corner);
+  }
+  return json({{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}}).dump();
 }
 
 json effects_json(const SimulationDescription& description) {
@@ -107,6 +128,15 @@ json balls_json(const Colliders& colliders) {
                      {"motion", dynamic ? "dynamic" : "kinematic"}});
   }
   return balls;
+}
+
+std::vector<std::shared_ptr<const std::string>> mesh_texts(const SimulationDescription& description) {
+  std::vector<std::shared_ptr<const std::string>> texts;
+  for (const ObstacleDescription& obstacle : description.obstacles) {
+    const auto* mesh = std::get_if<MeshDescription>(&obstacle.shape);
+    texts.push_back(mesh ? std::make_shared<const std::string>(mesh_text(*mesh->surface)) : nullptr);
+  }
+  return texts;
 }
 
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,

@@ -1,5 +1,6 @@
 #pragma once
 /// The host's own messages of PROTOCOL.md section 3, as JSON.
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ nlohmann::json balls_json(const Colliders& colliders);
 nlohmann::json pins_json(const ClothDescription& cloth);
 /// What holds each of them.
 nlohmann::json pins_json(const std::vector<Cloth<float>>& cloths);
+/// What /v1/scenes/NAME/meshes/K answers for each of the obstacles; nullptr where that is no mesh.
+std::vector<std::shared_ptr<const std::string>> mesh_texts(const SimulationDescription& description);
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);

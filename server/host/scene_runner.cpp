@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/arithmetic.h"
+#include "host/scene_messages.h"
 
 namespace weft::host {
 namespace {
@@ -27,6 +28,7 @@ SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
       cloths_(scene.simulation.cloths.size()),
       max_viewers_(limits.viewers),
       time_step_(scene.simulation.time_step),
+      meshes_(mesh_texts(scene.simulation)),
       live_(std::move(scene), limits),
       clock_(time_step_),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}

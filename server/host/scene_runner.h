@@ -33,6 +33,10 @@ class SceneRunner {
   const std::string& title() const { return title_; }
   std::size_t cloths() const { return cloths_; }
   int viewers() const { return viewers_; }
+  /// What /v1/scenes/NAME/meshes/`obstacle` answers; nullptr if that is not the number of a mesh.
+  std::shared_ptr<const std::string> mesh(std::size_t obstacle) const {
+    return obstacle < meshes_.size() ? meshes_[obstacle] : nullptr;
+  }
   /// Steps since the epoch began.
   std::uint64_t frame() const { return frame_; }
   /// Simulated, s.
@@ -81,6 +85,7 @@ class SceneRunner {
   const std::size_t cloths_;
   const int max_viewers_;
   const double time_step_;
+  const std::vector<std::shared_ptr<const std::string>> meshes_;  ///< of the obstacles; nullptr for others
   std::atomic<int> viewers_{0};
   std::atomic<std::uint64_t> frame_{0}, encodes_{0};
 

@@ -10,6 +10,7 @@
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <charconv>
 #include <chrono>
 #include <optional>
 
@@ -28,7 +29,7 @@ namespace {
 constexpr auto kRequestTime = std::chrono::seconds(10);   // for the whole header, and between requests
 constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
 constexpr std::uint32_t kHeaderBytes = 8192;
-constexpr std::string_view kScenes = "/v1/scenes";
+constexpr std::string_view kScenes = "/v1/scenes", kMeshes = "/meshes/";
 
 /// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
 /// parameter).
@@ -99,6 +100,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       answer.media_type = "application/json";
       return write(answer, last);
     }
+    const std::size_t meshes = path.find(kMeshes);
+    if (path.starts_with("/v1/scenes/") && meshes != path.npos) {
+      const auto text = find_mesh(path.substr(kScenes.size() + 1, meshes - kScenes.size() - 1),
+                                  path.substr(meshes + kMeshes.size()));
+      if (!text) return write(plain(http::status::not_found, "there is no such mesh\n"), last);
+      return write({http::status::ok, text, "application/json", ""}, last);
+    }
     if (path.starts_with("/v1/scenes/")) return open_scene(path.substr(kScenes.size() + 1), last);
     if (const auto file = context_.files.find(target)) {
       if (view(request[http::field::if_none_match]) == file->etag) {
@@ -110,6 +118,15 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     write(plain(http::status::not_found,
                 page_missing ? "this server was started without a page\n" : "not found\n"),
           last);
+  }
+
+  /// The mesh that GET /v1/scenes/NAME/meshes/OBSTACLE asks for; nullptr if there is none.
+  std::shared_ptr<const std::string> find_mesh(std::string_view name, std::string_view number) const {
+    const host::SceneRunner* scene = context_.host.find(name);
+    std::size_t obstacle = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), obstacle);
+    if (!scene || error != std::errc() || end != number.data() + number.size()) return nullptr;
+    return scene->mesh(obstacle);
   }
 
   /// The upgrade of GET /v1/scenes/NAME, or why not.
@@ -165,7 +182,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     });
   }
 
-  /// A page served elsewhere may ask for the list of scenes.
+  /// A page served elsewhere may ask for the list of scenes, and for meshes.
   void allow_reading_from(std::string_view origin, std::string_view host) {
     if (origin.empty() || !origin_allowed(origin, host, context_.options.allowed_origins)) return;
     response_->set(http::field::access_control_allow_origin,

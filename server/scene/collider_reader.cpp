@@ -1,3 +1,4 @@
+#include "cloth/contact/triangle_mesh.h"
 #include "scene/readers.h"
 
 namespace weft::scene {
@@ -73,14 +74,29 @@ ObstacleDescription read_capsule(Object& object) {
   return obstacle;
 }
 
+ObstacleDescription read_surface(Object& object, bool convex, const SceneFolder& folder,
+                                 const SimulationDescription& simulation) {
+  std::size_t room = kMaxMeshTriangles;
+  for (const ObstacleDescription& other : simulation.obstacles) {
+    const auto* mesh = std::get_if<MeshDescription>(&other.shape);
+    if (mesh != nullptr && mesh->surface != nullptr) room -= mesh->surface->list().triangles.size();
+  }
+  ObstacleDescription obstacle;
+  const MeshDescription mesh = read_mesh(object, convex, room, folder);
+  obstacle.shape = mesh;
+  read_pose_path(object, &mesh.orientation, obstacle);
+  return obstacle;
+}
+
 }  // namespace
 
-void read_collider(const json& value, const std::string& path, Report& report,
+void read_collider(const json& value, const std::string& path, Report& report, const SceneFolder& folder,
                    SimulationDescription& simulation) {
   Object object(value, path, report);
-  object.require("type", "\"ball\", \"plane\", \"box\" or \"capsule\"");
+  object.require("type", "\"ball\", \"plane\", \"box\", \"capsule\", \"convex\" or \"mesh\"");
   const int type = object.choice(
-      "type", {"ball", PlaneDescription::kName, BoxDescription::kName, CapsuleDescription::kName});
+      "type", {"ball", PlaneDescription::kName, BoxDescription::kName, CapsuleDescription::kName,
+               MeshDescription::kConvexName, MeshDescription::kName});
   if (type < 0) {
     object.ignore_rest();
     return;
@@ -91,7 +107,8 @@ void read_collider(const json& value, const std::string& path, Report& report,
   }
   ObstacleDescription obstacle = type == 1   ? read_plane(object)
                                  : type == 2 ? read_box(object)
-                                             : read_capsule(object);
+                                 : type == 3 ? read_capsule(object)
+                                             : read_surface(object, type == 4, folder, simulation);
   read_position(object, obstacle.position);
   if (!obstacle.path.empty()) obstacle.position = obstacle.path.front().pose.position;
   object.number("friction", obstacle.friction, kFriction);

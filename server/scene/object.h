@@ -32,6 +32,7 @@ class Report {
   void add(std::string path, std::string message);
   /// "is VALUE; must be EXPECTED".
   void refuse(const nlohmann::json& value, const std::string& path, const std::string& expected);
+  std::size_t count() const { return problems_.size(); }
   std::vector<Problem> take() { return std::move(problems_); }
 
  private:

@@ -97,8 +97,8 @@ bool reads_wind(const EffectDescription& effect) {
 
 }  // namespace
 
-Result read_scene(const json& document, std::string_view name, std::vector<Problem> found,
-                  std::map<std::string, std::string> overflows) {
+Result read_scene(const json& document, std::string_view name, const SceneFolder& folder,
+                  std::vector<Problem> found, std::map<std::string, std::string> overflows) {
   constexpr std::size_t kTitleLength = 200;
   constexpr Range kTimeStep{1e-6, 0.1, "s"};
   constexpr Range kSleepSpeed{0, 1, "m/s"};
@@ -114,7 +114,7 @@ Result read_scene(const json& document, std::string_view name, std::vector<Probl
     scene.notes = read_notes(object);
     simulation.cloths = read_cloths(object);
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
-      read_collider(value, path, report, simulation);
+      read_collider(value, path, report, folder, simulation);
     });
     check_pins(simulation, report);
     simulation.effects = read_effects(object);

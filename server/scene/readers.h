@@ -1,6 +1,7 @@
 #pragma once
 /// The parts of a scene file, one function each. Every problem goes to `report` with its pointer; what is
 /// returned is only meaningful if there were none.
+#include <filesystem>
 #include <optional>
 
 #include "scene/object.h"
@@ -14,6 +15,7 @@ inline constexpr int kMaxClothNodes = 257 * 257;  ///< at the cloth's highest le
 inline constexpr std::size_t kMaxPins = 256;
 inline constexpr std::size_t kMaxWaypoints = 10000;
 inline constexpr std::size_t kMaxWindZones = 16;
+inline constexpr std::size_t kMaxMeshTriangles = 100'000;  ///< of all meshes and convex bodies together
 
 // Ranges that several parts share. They only keep numbers where float arithmetic makes sense: sheets of 1 mm
 // to 10 km, from spider silk to steel.
@@ -24,9 +26,13 @@ inline constexpr Range kLevel{kMinLevel, kMaxLevel};
 inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
 
 ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report);
+/// Where a scene's other files are, if it is a file itself.
+using SceneFolder = std::optional<std::filesystem::path>;
 /// Adds a ball or an obstacle to the simulation.
 void read_collider(const nlohmann::json& value, const std::string& path, Report& report,
-                   SimulationDescription& simulation);
+                   const SceneFolder& folder, SimulationDescription& simulation);
+/// A collider's surface of at most `room` triangles: that of a `mesh`, or the hull of a `convex` body.
+MeshDescription read_mesh(Object& object, bool convex, std::size_t room, const SceneFolder& folder);
 /// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
 Quaternion read_orientation(const nlohmann::json& value, const std::string& path, Report& report);
 /// The object's "orientation", if it has one.
@@ -49,7 +55,7 @@ Quality read_quality(const nlohmann::json& value, const std::string& path, Repor
 LevelPolicy read_level_policy(const nlohmann::json& value, const std::string& path, Report& report);
 
 /// As above, of a document that has been read. `found` are problems its text had, `overflows` see Document.
-Result read_scene(const nlohmann::json& document, std::string_view name, std::vector<Problem> found,
-                  std::map<std::string, std::string> overflows);
+Result read_scene(const nlohmann::json& document, std::string_view name, const SceneFolder& folder,
+                  std::vector<Problem> found, std::map<std::string, std::string> overflows);
 
 }  // namespace weft::scene

@@ -33,27 +33,28 @@ std::string preset_names() {
   return text;
 }
 
-Result read_text(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
+Result read_text(std::string_view text, std::string_view name, const SceneFolder& folder,
+                 const std::vector<std::string>& overrides) {
   Document document = read_document(text);
   if (!document.readable) return std::move(document.problems);
   for (const std::string& override_text : overrides) {
     if (auto problem = apply_override(override_text, document.tree))
       document.problems.push_back(std::move(*problem));
   }
-  return read_scene(document.tree, name, std::move(document.problems), std::move(document.overflows));
+  return read_scene(document.tree, name, folder, std::move(document.problems), std::move(document.overflows));
 }
 
 }  // namespace
 
-Result parse(std::string_view text, std::string_view name) { return read_text(text, name, {}); }
+Result parse(std::string_view text, std::string_view name) { return read_text(text, name, {}, {}); }
 
 Result from_json(const nlohmann::json& document, std::string_view name) {
-  return read_scene(document, name, {}, {});
+  return read_scene(document, name, {}, {}, {});
 }
 
 Result load(const std::string& preset_or_file, const std::vector<std::string>& overrides) {
   for (const Preset& preset : presets()) {
-    if (preset.name == preset_or_file) return read_text(preset.text, preset.name, overrides);
+    if (preset.name == preset_or_file) return read_text(preset.text, preset.name, {}, overrides);
   }
   std::ifstream file(preset_or_file, std::ios::binary);
   std::string text;
@@ -67,7 +68,8 @@ Result load(const std::string& preset_or_file, const std::vector<std::string>& o
                                          " (neither a file nor a preset; the presets are " + preset_names() +
                                          ")"}};
   }
-  return read_text(text, name_of_file(preset_or_file), overrides);
+  return read_text(text, name_of_file(preset_or_file), std::filesystem::path(preset_or_file).parent_path(),
+                   overrides);
 }
 
 }  // namespace weft::scene

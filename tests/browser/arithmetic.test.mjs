@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {chartColumns, choiceFor, digits, neighbourText, percent} from '../../web/cost_curve.js';
+import {creased} from '../../web/creased.js';
 import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, triangleIndices} from '../../web/grid.js';
 import {Morph} from '../../web/morph.js';
 import {addressOfScene, readSettings} from '../../web/settings.js';
@@ -22,6 +23,17 @@ function sheet(cells, z = 0) {
 const frame = (serverMs, extra = {}) => ({stamp: {serverMs, epoch: 1, ...extra}});
 const near = (actual, expected, tolerance = 1e-9) =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected} within ${tolerance}`);
+
+test('a surface is round where its faces meet flatly, and sharp at edges', () => {
+  // A roof of two faces that meet at a ridge along z, each steep by `slope`.
+  const roof = (slope) => creased([-1, -slope, 0, 0, 0, 0, 1, -slope, 0, 0, 0, 1], [0, 3, 1, 1, 3, 2], {inset: 0.1});
+  const flat = roof(0.1), steep = roof(2), ridge = 3 * 2;  // corner 2 of the first face: vertex 1
+  near(flat.normals[ridge], 0);
+  near(flat.normals[ridge + 1], 1);
+  near(steep.normals[ridge], -2 / Math.hypot(1, 2), 1e-6);
+  near(steep.normals[ridge + 1], 1 / Math.hypot(1, 2), 1e-6);
+  near(steep.positions[ridge + 1], -0.1, 1e-6);  // below the ridge: its faces' mean is upwards
+});
 
 test('a cell is two triangles, counter-clockwise from the front', () => {
   assert.deepEqual([...triangleIndices(2, 2)], [0, 2, 1, 1, 2, 3]);

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { once } from 'node:events';
 import { copyFileSync, mkdtempSync, rmSync, symlinkSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { afterEach, test } from 'node:test';
@@ -96,6 +97,20 @@ test('in Node the package ws is taken from where the client is installed', { ski
   const client = await installed.connect(server.url);
   open.push(async () => client.close());
   assert.deepEqual(client.welcome, welcome);
+});
+
+test('the surface of a mesh is asked for beside the scene', async () => {
+  const asked = [], surface = { vertices: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
+  const http = createServer((request, response) => {
+    asked.push(request.url);
+    response.statusCode = request.url.endsWith('/1') ? 200 : 404;
+    response.end(request.url.endsWith('/1') ? JSON.stringify(surface) : 'there is no such mesh');
+  }).listen(0, '127.0.0.1');
+  open.push(() => http.closeAllConnections() ?? http.close());
+  const client = await join(await serve({ port: null, server: http }));
+  assert.deepEqual(await client.surface(1), surface);
+  await assert.rejects(client.surface(2), { code: 'not_found', message: 'there is no such mesh' });
+  assert.deepEqual(asked, [1, 2].map((obstacle) => `/v1/scenes/${scene.name}/meshes/${obstacle}`));
 });
 
 test('each method sends its operation', async () => {

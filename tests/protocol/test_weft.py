@@ -140,6 +140,24 @@ class Client(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(server.socket.path, "/v1/scenes/flag")
             self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "client": "test", "caps": ["flow.ack"], "window": 3})
 
+    async def test_the_surface_of_a_mesh_is_asked_for_beside_the_scene(self):
+        surface, asked = {"vertices": [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], "triangles": [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]}, []
+
+        async def process(path, headers):
+            if "Upgrade" in headers:
+                return None
+            asked.append(path)
+            if path.endswith("/1"):
+                return http.HTTPStatus.OK, [], json.dumps(surface).encode()
+            return http.HTTPStatus.NOT_FOUND, [], b"there is no such mesh"
+
+        async with Server(process_request=process) as server, await weft.connect(server.url) as scene:
+            self.assertEqual(await scene.surface(1), surface)
+            with self.assertRaises(weft.WeftError) as caught:
+                await scene.surface(2)
+        self.assertEqual(caught.exception.code, "not_found")
+        self.assertEqual(asked, [f"/v1/scenes/{SCENE['name']}/meshes/{obstacle}" for obstacle in (1, 2)])
+
     async def test_each_method_sends_its_operation(self):
         answers = {"ball.add": {"ball": 7}, "cloth.grab": {"grab": 3}, "scene.list": {"scenes": [{"name": "flag"}]}, "ping": {"op": "pong"}}
         async with Server(lambda message: answers.get(message["op"], {})) as server, await weft.connect(server.url, window=0) as scene:

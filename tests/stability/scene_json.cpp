@@ -1,5 +1,7 @@
 #include "scene_json.h"
 
+#include "cloth/contact/triangle_mesh.h"
+
 namespace weft::stability {
 namespace {
 
@@ -72,6 +74,13 @@ struct ShapeWriter {
     return {{"radius", s.radius},
             {"length", s.length},
             {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
+  }
+  json operator()(const MeshDescription& s) const {
+    const Quaternion& turn = s.orientation;
+    json made = {{"triangles", s.surface->list().triangles},
+                 {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
+    for (const Vec3& vertex : s.surface->list().vertices) made["vertices"].push_back(json_of(vertex));
+    return made;
   }
 };
 

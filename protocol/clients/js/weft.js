@@ -32,8 +32,12 @@ export const SUBPROTOCOL = 'weft.v1';
  * @typedef {{shape: 'plane', position: Vector, normal: Vector}} Plane
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
  * @typedef {{shape: 'capsule', position: Vector, radius: number, length: number, quaternion: [number, number, number, number]}} Capsule w, x, y, z
- * @typedef {Plane|Box|Capsule} Obstacle in `scene`; skip shapes that you do not know
  * @typedef {{shape: 'box'|'sphere', position: Vector, size?: Vector, radius?: number, quaternion?: [number, number, number, number], velocity: Vector, edge: number}} WindZone
+ * @typedef {{shape: 'mesh'|'convex', position: Vector, vertices: number, triangles: number, quaternion: [number, number, number, number]}} Mesh
+ *   how many there are: `surface` has them; w, x, y, z
+ * @typedef {{vertices: number[], triangles: number[]}} Surface x, y, z of each vertex in the mesh's own axes, m; three vertices a triangle,
+ *   counterclockwise as seen from outside
+ * @typedef {Plane|Box|Capsule|Mesh} Obstacle in `scene`; skip shapes that you do not know
  * @typedef {{obstacle: number, position: Vector, quaternion: [number, number, number, number]}} MovedObstacle its place in `scene`; w, x, y, z
  * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[], obstacles: MovedObstacle[]}} Frame obstacles: those that are not where `scene` says
  */
@@ -393,6 +397,14 @@ export class WeftClient {
   /** @param {number} obstacle its place in `scene` @param {Vector} position @param {[number, number, number, number]} [quaternion] w, x, y, z; without one it keeps its turn */
   moveObstacle(obstacle, position, quaternion) {
     return this.send('obstacle.move', { obstacle, position, quaternion });
+  }
+
+  /** What a mesh of the scene looks like. @param {number} obstacle its place in `scene` @returns {Promise<Surface>} */
+  async surface(obstacle) {
+    const place = new URL(`${encodeURIComponent(this.scene.name)}/meshes/${obstacle}`, this.#url.replace(/^ws/, 'http'));
+    const answer = await fetch(place, { signal: AbortSignal.timeout(this.#options.timeout) });
+    if (!answer.ok) throw new WeftError('not_found', await answer.text());
+    return answer.json();
   }
 
   /**

@@ -20,6 +20,9 @@ import math
 import struct
 import sys
 import typing
+import urllib.error
+import urllib.parse
+import urllib.request
 
 try:
     import websockets
@@ -299,6 +302,7 @@ class Client:
         self._greeted = asyncio.Event()
 
     async def _open(self, url):
+        self._url = url
         # The server negotiates no compression; saying so spares the offer.
         self._socket = await websockets.connect(url, subprotocols=[SUBPROTOCOL], compression=None, max_size=MAX_MESSAGE_BYTES,
                                                 open_timeout=None)
@@ -420,6 +424,19 @@ class Client:
     async def move_obstacle(self, obstacle: int, position, *, quaternion=None) -> dict:
         """An obstacle, by its place in `scene`, goes there within one step; quaternion (w, x, y, z) None: it keeps its turn."""
         return await self.send("obstacle.move", obstacle=obstacle, position=position, quaternion=quaternion)
+
+    async def surface(self, obstacle: int) -> dict:
+        """What a mesh of the scene looks like, by its place in `scene`: `vertices`, x, y, z of each in the mesh's own axes (m), and
+        `triangles`, three vertices each, counterclockwise as seen from outside."""
+        place = f"{urllib.parse.quote(self.scene['name'], safe='')}/meshes/{obstacle}"
+        url = urllib.parse.urljoin("http" + self._url[len("ws"):], place)
+        try:
+            with await asyncio.to_thread(urllib.request.urlopen, url, timeout=self._timeout) as answer:
+                return json.loads(answer.read())
+        except urllib.error.HTTPError as error:
+            raise WeftError("not_found", f"{url}: {error}") from error
+        except OSError as error:
+            raise WeftError("connect", f"{url}: {error}") from error
 
     async def grab(self, cloth: int, u: float, v: float, *, position=None, max_force: typing.Optional[float] = None) -> int:
         """Takes hold of a cloth at (u, v), which then follows the hand (m; None: where the cloth is) by at most a force (N); returns

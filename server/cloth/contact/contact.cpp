@@ -49,7 +49,24 @@ kernels::Stretch stretch_of(const PlacedShape& placed, const Capsule& capsule) {
           capsule.radius * capsule.radius};
 }
 
-/// Which of a block's rows have a node in the shape.
+/// Which of a block's rows have a node that perhaps touches the mesh: reach(index from the block's first) is
+/// how far it may have come, m.
+template <class Real, class Reach>
+std::uint32_t rows_near(const kernels::NodeBlock<Real>& block, const PlacedShape& mesh, Reach reach) {
+  std::uint32_t rows = 0;
+  for (int r = 0; r < block.rows; ++r) {
+    const std::size_t first = static_cast<std::size_t>(r) * static_cast<std::size_t>(block.stride);
+    for (std::size_t i = first; i < first + static_cast<std::size_t>(block.cols); ++i) {
+      const Vec3 place(double(block.position.x[i]), double(block.position.y[i]), double(block.position.z[i]));
+      if (!mesh.may_touch(place, reach(place, i))) continue;
+      rows |= std::uint32_t{1} << r;
+      break;
+    }
+  }
+  return rows;
+}
+
+/// Which of a block's rows have a node in the shape; perhaps, if that is a mesh.
 template <class Real>
 std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedShape& placed) {
   if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
@@ -63,6 +80,9 @@ std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedSha
   }
   if (const auto* capsule = std::get_if<Capsule>(&placed.shape)) {
     return kernels::rows_inside(block, stretch_of(placed, *capsule));
+  }
+  if (std::holds_alternative<Mesh>(placed.shape)) {
+    return rows_near(block, placed, [](const Vec3&, std::size_t) { return 0.0; });
   }
   const Vec3 half = std::get<Box>(placed.shape).half;
   kernels::OrientedBox box{};
@@ -79,6 +99,11 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
                           const Way<Real>& way, std::size_t first) {
   const PlacedShape& placed = moving.shape;
   if (!moving.fast || std::holds_alternative<HalfSpace>(placed.shape)) return rows_inside(block, placed);
+  if (std::holds_alternative<Mesh>(placed.shape)) {
+    return rows_near(block, placed, [&](const Vec3& place, std::size_t i) {
+      return way.move(place, first + i).norm() + moving.sweep;
+    });
+  }
   const auto* sphere = std::get_if<Sphere>(&placed.shape);
   if (sphere == nullptr) return ~std::uint32_t{0};
   return kernels::rows_swept(block, {way.other + first, way.own, way.factor},
@@ -100,9 +125,10 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     const Vec3 move = solid.at(substep.to) - solid.at(substep.from);
     const double swing =
         solid.turns() ? (substep.to - substep.from) * solid.turn.norm() * outer_radius(solid.shape) : 0;
-    const bool fast = longest + move.norm() + swing > kSlowMove * inner_radius(solid.shape);
+    const double sweep = move.norm() + swing;
+    const bool fast = longest + sweep > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    moving.push_back({&solid, solid.placed(substep.to), move, fast, solid.velocity, substep});
+    moving.push_back({&solid, solid.placed(substep.to), move, sweep, fast, solid.velocity, substep});
   }
   const std::vector<TileSolidPair>& pairs =
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});

@@ -171,8 +171,8 @@ double NodeContact<Real>::part_with(const Vec3& lost, MovingSolid& moving) {
   return share;
 }
 
-/// Overlapping solids hand a node to each other. All are convex: along one ray none is entered twice, if the
-/// ray leads away from half-spaces.
+/// Overlapping solids hand a node to each other. Along one ray none but a mesh is entered twice, if the ray
+/// leads away from half-spaces, and a mesh not for ever.
 template <class Real>
 void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found) {
   Vec3 direction(0, 0, 0);

@@ -15,6 +15,7 @@ struct MovingSolid {
   const Solid* solid;
   PlacedShape shape;  ///< at the substep's end
   Vec3 move;          ///< of its centre in the substep, m
+  double sweep;       ///< the farthest that any of its points moves, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
   Vec3 velocity;      ///< with what the nodes so far gave it, m/s
   Substep substep;

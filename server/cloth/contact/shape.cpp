@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/contact/triangle_mesh.h"
+
 namespace weft {
 namespace {
 
@@ -38,6 +40,11 @@ Surface surface_of(const Capsule& capsule, const Vec3& point) {
   const Vec3 across = point - on_axis(capsule, point);
   const double length = across.norm();
   return {length - capsule.radius, length > 0 ? Vec3(across / length) : Vec3(1, 0, 0)};
+}
+
+Surface surface_of(const Mesh& mesh, const Vec3& point) {
+  const TriangleMesh::Nearest nearest = mesh.surface->nearest(point);
+  return {nearest.distance, nearest.normal};
 }
 
 std::optional<Hit> hit_of(const Sphere& sphere, const Vec3& from, const Vec3& way) {
@@ -91,6 +98,11 @@ std::optional<Hit> hit_of(const Capsule& capsule, const Vec3& from, const Vec3& 
   return first;
 }
 
+std::optional<Hit> hit_of(const Mesh& mesh, const Vec3& from, const Vec3& way) {
+  const std::optional<TriangleMesh::Crossing> entry = mesh.surface->first_entry(from, way);
+  return entry ? std::optional<Hit>({entry->fraction, entry->normal}) : std::nullopt;
+}
+
 double way_out_of(const Sphere& sphere, const Vec3& origin, const Vec3& direction) {
   const double along = origin.dot(direction);
   return -along +
@@ -131,6 +143,10 @@ double way_out_of(const Capsule& capsule, const Vec3& origin, const Vec3& direct
   return out;
 }
 
+double way_out_of(const Mesh& mesh, const Vec3& origin, const Vec3& direction) {
+  return mesh.surface->way_out(origin, direction);
+}
+
 }  // namespace
 
 Surface PlacedShape::surface(const Vec3& point) const {
@@ -141,6 +157,9 @@ Surface PlacedShape::surface(const Vec3& point) const {
 }
 
 bool PlacedShape::contains(const Vec3& point) const {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    return mesh->surface->contains(rotation.transpose() * (point - centre));
+  }
   const auto* sphere = std::get_if<Sphere>(&shape);
   return sphere != nullptr ? (point - centre).squaredNorm() < sphere->radius * sphere->radius
                            : surface(point).distance < 0;
@@ -158,7 +177,19 @@ double PlacedShape::way_out(const Vec3& origin, const Vec3& direction) const {
   return std::visit([&](const auto& s) { return way_out_of(s, local, ray); }, shape);
 }
 
+bool PlacedShape::may_touch(const Vec3& point, double reach) const {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    return mesh->surface->may_touch(rotation.transpose() * (point - centre), reach);
+  }
+  return surface(point).distance < reach;
+}
+
 Eigen::AlignedBox3d PlacedShape::bounds() const {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    const Eigen::AlignedBox3d& box = mesh->surface->bounds();
+    const Vec3 middle = centre + rotation * box.center(), reach = rotation.cwiseAbs() * box.sizes() / 2;
+    return {middle - reach, middle + reach};
+  }
   Vec3 half = Vec3::Constant(kInfinity);
   if (const auto* sphere = std::get_if<Sphere>(&shape)) half = Vec3::Constant(sphere->radius);
   if (const auto* box = std::get_if<Box>(&shape)) half = rotation.cwiseAbs() * box->half;
@@ -172,6 +203,7 @@ double outer_radius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.norm();
   if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->half + capsule->radius;
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->surface->outer_radius();
   return kInfinity;
 }
 
@@ -179,6 +211,7 @@ double inner_radius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
   if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->surface->inner_radius();
   return kInfinity;
 }
 

@@ -6,6 +6,8 @@
 
 namespace weft {
 
+class TriangleMesh;
+
 /// Centred at the origin of its own frame.
 struct Sphere {
   double radius = 0;  ///< m
@@ -21,7 +23,12 @@ struct Capsule {
   double half = 0;    ///< half the stretch's length, m
   double radius = 0;  ///< m
 };
-using Shape = std::variant<Sphere, HalfSpace, Box, Capsule>;
+/// Within a closed surface of triangles. It belongs to someone else, who keeps it: shapes are copied in hot
+/// loops.
+struct Mesh {
+  const TriangleMesh* surface = nullptr;
+};
+using Shape = std::variant<Sphere, HalfSpace, Box, Capsule, Mesh>;
 
 /// The point of a surface next to some point.
 struct Surface {
@@ -49,7 +56,9 @@ struct PlacedShape {
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
   /// Where the ray from `origin`, inside, leaves: the distance along the unit `direction`.
   double way_out(const Vec3& origin, const Vec3& direction) const;
-  /// Infinite for a half-space.
+  /// False only if it is outside and `reach`, m, or farther from the surface, and that is seen at one look.
+  bool may_touch(const Vec3& point, double reach) const;
+  /// Infinite for a half-space; of a turned mesh those of the box around it in its own frame.
   Eigen::AlignedBox3d bounds() const;
 };
 

@@ -66,7 +66,8 @@ TEST(BadScenes, ADocumentWithInfinityIsRefused) {
 TEST(BadScenes, MissingFilesNameThePresets) {
   EXPECT_EQ(problems_of(load("no-such-scene")),
             "no-such-scene: No such file or directory (neither a file nor a preset; the presets are flag, "
-            "flag-gusts, curtain, fan, tablecloth, silk, cape, sail, trampoline, washing-line, swing, "
+            "flag-gusts, curtain, fan, tablecloth, silk, round-table, cape, sail, trampoline, washing-line, "
+            "swing, "
             "zheng2020-wind, zheng2020-distance, "
             "zheng2020-ball)\n");
 }

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "cloth/contact/triangle_mesh.h"
+
+namespace weft::scene {
+
+inline constexpr std::size_t kMaxObjBytes = 64u << 20;
+
+/// The surface in a Wavefront OBJ file: its vertices and faces, of all objects and groups; faces of more than
+/// three corners are cut into triangles. `file` is looked for in `folder`, the scene file's, and must stay in
+/// it: a relative path without "..", and no link out of it. Throws std::invalid_argument, saying what is
+/// wrong.
+TriangleList read_obj_file(const std::filesystem::path& folder, const std::string& file);
+
+}  // namespace weft::scene

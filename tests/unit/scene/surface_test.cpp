@@ -1,0 +1,152 @@
+// Convex bodies and meshes: what OBJ files, lathes and hulls give, and files that are refused.
+#include <cmath>
+#include <numbers>
+
+#include "cloth/contact/triangle_mesh.h"
+#include "fixtures.h"
+
+namespace weft::scene::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const TriangleMesh& surface(const Scene& scene, std::size_t obstacle) {
+  return *std::get<MeshDescription>(scene.simulation.obstacles[obstacle].shape).surface;
+}
+
+double volume(const TriangleMesh& mesh) {
+  double six_fold = 0;
+  for (const auto& [a, b, c] : mesh.list().triangles) {
+    const auto vertex = [&](int i) { return mesh.list().vertices[static_cast<std::size_t>(i)]; };
+    six_fold += vertex(a).dot(vertex(b).cross(vertex(c)));
+  }
+  return six_fold / 6;
+}
+
+TEST(Surfaces, AreWhatTheSceneSays) {
+  const Scene scene = good(load((fs::path(WEFT_SCENE_TEST_DATA) / "good/surfaces.json").string()));
+  ASSERT_EQ(scene.simulation.obstacles.size(), 6u);
+  const auto& box = std::get<MeshDescription>(scene.simulation.obstacles[0].shape);
+  EXPECT_FALSE(box.convex);
+  EXPECT_NEAR(box.orientation.w(), std::cos(std::numbers::pi / 4), 1e-15);
+  EXPECT_EQ(scene.simulation.obstacles[0].friction, 0.3);
+  EXPECT_EQ(scene.simulation.obstacles[0].position, Vec3(0, 1, 0));
+  EXPECT_EQ(box.surface->list().triangles.size(), 12u);
+  EXPECT_NEAR(volume(*box.surface), 0.5 * 1 * 1.5, 1e-12);  // of 1 x 2 x 3 m, half as large
+  EXPECT_TRUE(box.surface->contains({0.2, 0.4, 0.7}));
+  EXPECT_FALSE(box.surface->contains({0.3, 0.4, 0.7}));
+
+  EXPECT_TRUE(std::get<MeshDescription>(scene.simulation.obstacles[1].shape).convex);
+  EXPECT_EQ(scene.simulation.obstacles[1].path.size(), 2u);
+  EXPECT_NEAR(volume(surface(scene, 1)), 6, 1e-12);
+  EXPECT_EQ(surface(scene, 1).list().triangles.size(), 12u);  // each of its 6 faces cut in two
+
+  EXPECT_EQ(surface(scene, 2).list().vertices.size(), 4u);  // the fifth is inside
+  EXPECT_NEAR(volume(surface(scene, 2)), 1.0 / 6, 1e-15);
+  EXPECT_NEAR(volume(surface(scene, 3)), 1.0 / 6, 1e-15);
+
+  // A polygon of n corners has the area n/2 sin(2 pi / n) r^2.
+  const double twelve = 6 * std::sin(std::numbers::pi / 6);
+  EXPECT_NEAR(volume(surface(scene, 4)), twelve * (0.36 - 0.16) * 0.2, 1e-12);
+  EXPECT_FALSE(surface(scene, 4).contains({0, 0, 0}));
+  const double forty_eight = 24 * std::sin(std::numbers::pi / 24);
+  EXPECT_NEAR(volume(surface(scene, 5)), forty_eight * 0.25 * 0.1, 1e-12);
+  EXPECT_EQ(surface(scene, 5).list().vertices.size(), 96u);  // the axis' points are inside faces
+}
+
+/// A folder of its own, gone with the test.
+class SurfaceFile : public testing::Test {
+ protected:
+  SurfaceFile() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "scenes/meshes");
+  }
+  ~SurfaceFile() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// Of a scene in scenes/ that has a mesh of this file.
+  std::string problems(const std::string& file) const {
+    const nlohmann::json scene = {
+        {"cloths", {nlohmann::json::object()}},
+        {"colliders", {{{"type", "mesh"}, {"position", {0, 0, 0}}, {"file", file}}}}};
+    write("scenes/scene.json", scene.dump());
+    return problems_of(load((folder_ / "scenes/scene.json").string()));
+  }
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string box_ = read_file(fs::path(WEFT_SCENE_TEST_DATA) / "good/box.obj");
+};
+
+TEST_F(SurfaceFile, IsFoundBesideAndBelowTheScene) {
+  write("scenes/box.obj", box_);
+  write("scenes/meshes/box.obj", box_);
+  EXPECT_EQ(problems("box.obj"), "");
+  EXPECT_EQ(problems("./meshes/box.obj"), "");
+}
+
+TEST_F(SurfaceFile, MayNotLieOutsideTheScenesFolder) {
+  write("box.obj", box_);
+  fs::create_symlink("../box.obj", folder_ / "scenes/link.obj");
+  const std::string refusal = "must be a path within the scene file's folder, without \"..\"\n";
+  for (const std::string& file : {std::string("../box.obj"), std::string("meshes/../../box.obj"),
+                                  (folder_ / "box.obj").string(), std::string()}) {
+    EXPECT_EQ(problems(file), "/colliders/0/file: is \"" + file + "\", which " + refusal);
+  }
+  EXPECT_EQ(problems("link.obj"),
+            "/colliders/0/file: is \"link.obj\", which is a link out of the scene file's folder\n");
+}
+
+TEST_F(SurfaceFile, SaysWhatIsWrongWithIt) {
+  const auto refusal = [&](const std::string& text) {
+    write("scenes/bad.obj", text);
+    const std::string begin = "/colliders/0/file: is \"bad.obj\", which ", all = problems("bad.obj");
+    EXPECT_EQ(all.substr(0, begin.size()), begin);
+    return all.substr(std::min(all.size(), begin.size()));
+  };
+  EXPECT_EQ(problems("none.obj"),
+            "/colliders/0/file: is \"none.obj\", which cannot be read: No such file or directory\n");
+  EXPECT_EQ(problems("meshes"), "/colliders/0/file: is \"meshes\", which is not a file\n");
+  EXPECT_EQ(refusal(""), "has no triangles: \"f\" lines of an OBJ file\n");
+  EXPECT_EQ(refusal("{\"cloths\": []}\n"), "has no triangles: \"f\" lines of an OBJ file\n");
+  EXPECT_EQ(refusal(std::string("\x7f\x45\x4c\x46\0\0\0", 7)),
+            "has no triangles: \"f\" lines of an OBJ file\n");
+  EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            "is no solid: the surface is not closed: 3 edges have one triangle, the first at [0, 0, 0]; a "
+            "solid has "
+            "an inside\n");
+  EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+            "is no solid: triangle 0 has corner 8; there are 3 vertices, counted from 0\n");
+  EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1e999 0\nf 1 2 3\n"),
+            "has a vertex beyond 10000 m of the origin, or not finite\n");
+  std::string open = box_;
+  open.resize(open.rfind("f "));
+  EXPECT_EQ(refusal(open).substr(0, 62), "is no solid: the surface is not closed: 4 edges have one trian");
+}
+
+TEST_F(SurfaceFile, LargerThanAllowedIsRefusedUnread) {
+  write("scenes/large.obj", "");
+  fs::resize_file(folder_ / "scenes/large.obj", (64u << 20) + 1);
+  EXPECT_EQ(problems("large.obj"),
+            "/colliders/0/file: is \"large.obj\", which has 67108865 bytes; at most 67108864 are allowed\n");
+}
+
+TEST(Surfaces, OfAllBodiesTogetherAreBounded) {
+  // 1000 sides of a ring of 25 points are 50,000 triangles: two fit, a third does not.
+  nlohmann::json ring = {{"type", "mesh"}, {"position", {0, 0, 0}}};
+  for (int i = 0; i < 25; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 25;
+    ring["lathe"]["outline"].push_back({2 + std::cos(angle), std::sin(angle)});
+  }
+  ring["lathe"]["sides"] = 1000;
+  nlohmann::json scene = {{"cloths", {nlohmann::json::object()}}, {"colliders", {ring, ring}}};
+  EXPECT_EQ(problems_of(from_json(scene, "two")), "");
+  scene["colliders"].push_back(ring);
+  EXPECT_EQ(
+      problems_of(from_json(scene, "three")),
+      "/colliders/2/lathe: has 50000 triangles; at most 100000 are allowed in all of a scene, of which 0 are "
+      "left\n");
+}
+
+}  // namespace
+}  // namespace weft::scene::test
