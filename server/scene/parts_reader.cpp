@@ -44,11 +44,13 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
   constexpr Range kCoefficient{0, 100};
   constexpr Range kDampingTime{0, 10, "s"};
+  constexpr Range kPressure{-1e6, 1e6, "Pa"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (object.choice(
-      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName, StrainLimitEffect::kName})) {
+  switch (
+      object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
+                             AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
+                             StrainLimitEffect::kName, InflationEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -79,6 +81,11 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
       return PlateBendingEffect{};
     case 6:
       return StrainLimitEffect{};
+    case 7: {
+      InflationEffect inflation;
+      object.number("pressure", inflation.pressure, kPressure);
+      return inflation;
+    }
     default:
       object.ignore_rest();
       return std::nullopt;
