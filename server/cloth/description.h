@@ -79,9 +79,17 @@ struct ClothContactEffect {
   static constexpr const char* kName = "cloth_contact";
 };
 
+/// Air under a sheet that is held all round its rim, as under an air-supported roof or in a bouncy castle: a
+/// pressure above that outside, kept up whatever the volume, pushes every face along its normal, F = p A. A
+/// sheet whose rim is free is pushed from its back.
+struct InflationEffect {
+  double pressure = 100;  ///< Pa; finite. Below 0 it sucks.
+  static constexpr const char* kName = "inflation";
+};
+
 using EffectDescription =
     std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
-                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect>;
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect>;
 
 // --- Things in the scene ---
 

@@ -46,12 +46,13 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kDampingTime{0, 10, "s"};
   constexpr Range kThickness{1e-4, 1, "m"};
   constexpr Range kFriction{0, 10};
+  constexpr Range kPressure{-1e6, 1e6, "Pa"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
   switch (
       object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
                              AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
-                             StrainLimitEffect::kName, ClothContactEffect::kName})) {
+                             StrainLimitEffect::kName, ClothContactEffect::kName, InflationEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -87,6 +88,11 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
       object.number("thickness", contact.thickness, kThickness);
       object.number("friction", contact.friction, kFriction);
       return contact;
+    }
+    case 8: {
+      InflationEffect inflation;
+      object.number("pressure", inflation.pressure, kPressure);
+      return inflation;
     }
     default:
       object.ignore_rest();

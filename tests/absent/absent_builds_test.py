@@ -19,7 +19,7 @@ FRAMES = 3
 def scene(absent):
     """A hung sheet with everything but what is absent."""
     effects = [{"type": "gravity"}, {"type": "damping"}, {"type": "paper_wind"}, {"type": "aerodynamics"},
-               {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"}, {"type": "cloth_contact"}]
+               {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"}, {"type": "cloth_contact"}, {"type": "inflation"}]
     wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5}}
     balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}]
     return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],

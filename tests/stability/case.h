@@ -96,7 +96,7 @@ double mass_of(const ClothDescription& cloth);
 
 // --- The table, by theme ---
 
-std::vector<Case> material_cases();  ///< stiffness, mass, step, load: S1 to S5, S13
+std::vector<Case> material_cases();  ///< stiffness, mass, step, load: S1 to S5, S13, S22
 std::vector<Case> shape_cases();     ///< hopeless shapes and shocks: S6, S7, S12, S18, S19, S21
 std::vector<Case> ball_cases();      ///< S8, S10, S20
 std::vector<Case> level_cases();     ///< S11

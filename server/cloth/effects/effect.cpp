@@ -3,6 +3,7 @@
 #include "cloth/effects/aerodynamics.h"
 #include "cloth/effects/damping.h"
 #include "cloth/effects/gravity.h"
+#include "cloth/effects/inflation.h"
 #include "cloth/effects/paper_wind.h"
 
 namespace weft {
@@ -16,6 +17,7 @@ struct EffectMaker {
   Made operator()(const DampingEffect& e) const { return std::make_unique<Damping<Real>>(e); }
   Made operator()(const PaperWindEffect& e) const { return std::make_unique<PaperWind<Real>>(e); }
   Made operator()(const AerodynamicsEffect& e) const { return std::make_unique<Aerodynamics<Real>>(e); }
+  Made operator()(const InflationEffect& e) const { return std::make_unique<Inflation<Real>>(e); }
   // The sheet's own affair: Springs and Plate, which each integrator takes in its own way.
   Made operator()(const StrainDampingEffect&) const { return nullptr; }
   Made operator()(const PlateBendingEffect&) const { return nullptr; }
