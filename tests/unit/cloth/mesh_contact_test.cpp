@@ -177,7 +177,8 @@ TEST(DrapedMesh, AsOverTheBox) {
 
 TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
   // 5000 triangles whose corners lie on a ball of 0.3 m: their middles are lower by R (1 - cos(a / 2)) = 0.73
-  // mm at most, a the angle of their longest sides. The cloth's middle, held by friction, rests on both.
+  // mm at most, a the angle of their longest sides. The fall's bounce and the folds go their own ways; how
+  // high the cloth's middle, held by friction, rests in the end does not, and no node gets inside.
   constexpr double kRadius = 0.3, kOutside = 1e-4;
   const double facet = kRadius * (1 - std::cos(std::hypot(pi / 51, 2 * pi / 50) / 2));
   ObstacleDescription sphere = mesh_obstacle(test::sphere_mesh(kRadius, 51, 50));
@@ -197,18 +198,17 @@ TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
   }
   const Particles<float>& on_ball = a.cloths()[0].particles();
   const Particles<float>& on_mesh = b.cloths()[0].particles();
-  int resting = 0;
+  double lowest_on_ball = 1, lowest_on_mesh = 1;  // of the middle's nodes: some may be in a fold
   each_node(on_mesh.grid(), [&](int r, int c) {
     const Vec3 place = on_mesh.position_at(r, c);
     EXPECT_GE(surface.nearest(place).distance, -1e-6);
-    const double beside = on_ball.position_at(r, c).norm();
-    if (std::hypot(r - 16, c - 16) > 4 || beside > kRadius + kOutside) return;  // where folds begin
-    ++resting;
     EXPECT_GE(place.norm(), kRadius - facet);
-    EXPECT_LE(place.norm(), kRadius + facet);
-    EXPECT_LT((place - on_ball.position_at(r, c)).norm(), 2 * facet);
+    if (std::hypot(r - 16, c - 16) > 2) return;
+    lowest_on_ball = std::min(lowest_on_ball, on_ball.position_at(r, c).norm());
+    lowest_on_mesh = std::min(lowest_on_mesh, place.norm());
   });
-  EXPECT_GE(resting, 9);
+  EXPECT_NEAR(lowest_on_ball, kRadius, kOutside);
+  EXPECT_NEAR(lowest_on_mesh, lowest_on_ball, facet + kOutside);
 }
 
 TEST(DrapedMesh, SameBitsTwiceAndWhereverElseItIsUsed) {
