@@ -254,7 +254,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
         s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
     s.target = {.least = solved.target};
     const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
-    const ChangeReport changed = (this->*change)(*forces.springs, decrease);
+    const ChangeReport changed = (this->*change)(forces, decrease);
     s.system.bodies().take_changes();
     kernels::move_nodes<Real>(
         s.step,
@@ -286,15 +286,15 @@ void Implicit<Real>::scale_change(double share) {
 }
 
 template <class Real>
-auto Implicit<Real>::whole_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
   State& s = *state_;
-  double left_over = 0;
-  if (!s.contacts.empty()) {
-    const double share = s.contacts.best_share(s.move, s.change, s.system.bodies(), decrease);
-    if (share < 1) scale_change(share);
-    left_over = (1 - share) * (1 - share) * decrease;
-  }
-  const ChangeReport report = model_change(springs, decrease - left_over);
+  s.one_sided.clear();
+  s.contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
+  if (forces.layers != nullptr) forces.layers->append_springs(s.move, s.change, s.one_sided);
+  const double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
+  if (share < 1) scale_change(share);
+  const double left_over = (1 - share) * (1 - share) * decrease;
+  const ChangeReport report = model_change(*forces.springs, decrease - left_over);
   return {report.brought_in, std::max(report.error, left_over)};
 }
 
@@ -306,11 +306,11 @@ auto Implicit<Real>::model_change(const Springs<Real>& springs, double decrease)
 }
 
 template <class Real>
-auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+auto Implicit<Real>::searched_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
   const kernels::Components<Real> change = state_->change;
   for (double share = 1; share > kSmallestShare; share /= 2) {
     // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = model_change(springs, share * (2 - share) * decrease);
+    const ChangeReport report = model_change(*forces.springs, share * (2 - share) * decrease);
     if (report.brought_in <= 0) return report;
     scale_change(0.5);
   }

@@ -16,7 +16,7 @@ namespace weft {
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
 /// of the motion's energy, if a contact's constraint pulled, if only a share of the change was taken, as
-/// contacts that the system did not hold came in its way (ContactConstraints::best_share), or if the step
+/// contacts that the system did not hold came in its way (best_share), or if the step
 /// brings in energy, some further ones are made; if it still brings in energy, the step is taken back and
 /// made again by backward Euler with a line search: each change is halved until it brings in none (Nocedal
 /// and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a halved change does not
@@ -56,13 +56,14 @@ class Implicit final : public Integrator<Real> {
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     ContactConstraints<Real> contacts;
-    double h = 0;                       ///< s, of the last step's substeps
-    std::optional<Springs<Real>> soft;  ///< in place of the cloth's, where those are too stiff for h
-    double scale = 0;                   ///< energy that the substep's motion is of, J
-    double slow = 0;                    ///< m/s, as slow as motion need be told from rest
-    SolveTarget target;                 ///< of the substep's solves
-    bool smooth = true;                 ///< the substep was not taken back
-    bool sound = true;                  ///< a move was found in every substep of the step
+    std::vector<OneSidedSpring> one_sided;  ///< those of a change
+    double h = 0;                           ///< s, of the last step's substeps
+    std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
+    double scale = 0;                       ///< energy that the substep's motion is of, J
+    double slow = 0;                        ///< m/s, as slow as motion need be told from rest
+    SolveTarget target;                     ///< of the substep's solves
+    bool smooth = true;                     ///< the substep was not taken back
+    bool sound = true;                      ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
@@ -82,7 +83,7 @@ class Implicit final : public Integrator<Real> {
     bool taken = true;      ///< not dropped
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
-  using Change = ChangeReport (Implicit::*)(const Springs<Real>& springs, double decrease);
+  using Change = ChangeReport (Implicit::*)(const Forces<Real>& forces, double decrease);
 
   /// Takes the particles from the substep's start to its end. Returns the linear iterations.
   int find_move(Particles<Real>& particles, const Forces<Real>& forces, double h);
@@ -90,8 +91,8 @@ class Implicit final : public Integrator<Real> {
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
   /// Less than the whole where contacts come in its way.
-  ChangeReport whole_change(const Springs<Real>& springs, double decrease);
-  ChangeReport searched_change(const Springs<Real>& springs, double decrease);
+  ChangeReport whole_change(const Forces<Real>& forces, double decrease);
+  ChangeReport searched_change(const Forces<Real>& forces, double decrease);
   /// Of the change as it is.
   ChangeReport model_change(const Springs<Real>& springs, double decrease) const;
   void scale_change(double share);

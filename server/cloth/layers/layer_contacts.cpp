@@ -149,6 +149,15 @@ void LayerContacts<Real>::add_to(kernels::Components<Real> b, NodeCouplings<Real
 }
 
 template <class Real>
+void LayerContacts<Real>::append_springs(kernels::Components<const Real> move,
+                                         kernels::Components<const Real> change,
+                                         std::vector<OneSidedSpring>& springs) const {
+  for (const Constraint& c : constraints_) {
+    springs.push_back({-room(c, move), c.room - room(c, change), c.stiffness, c.acts});
+  }
+}
+
+template <class Real>
 double LayerContacts<Real>::release_pulling(kernels::Components<const Real> move) {
   double energy = 0;
   for (Constraint& c : constraints_) {

@@ -2,6 +2,7 @@
 #include "cloth/contact/contact.h"
 #include "cloth/layers/layer_nodes.h"
 #include "cloth/solver/node_couplings.h"
+#include "cloth/solver/one_sided_springs.h"
 
 namespace weft {
 
@@ -54,6 +55,9 @@ class LayerContacts {
   /// Adds the constraints to the system of a Newton iteration at `move`; `diagonal` is the system's, N/m.
   void add_to(kernels::Components<Real> b, NodeCouplings<Real>& couplings, const Real* diagonal,
               kernels::Components<const Real> move);
+  /// Appends the constraints as they are at `move` along `change`.
+  void append_springs(kernels::Components<const Real> move, kernels::Components<const Real> change,
+                      std::vector<OneSidedSpring>& springs) const;
   /// Takes away what pulls at `move` and brings back what is too near. Returns the energy of their springs,
   /// J.
   double release_pulling(kernels::Components<const Real> move);
