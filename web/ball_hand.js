@@ -1,4 +1,5 @@
-import {Plane, Raycaster, Vector2, Vector3} from './three/three.module.js';
+import {Plane, Vector3} from './three/three.module.js';
+import {Pointing} from './pointing.js';
 import {ThrowSpeed} from './throw_speed.js';
 
 const kMoveMs = 33;       // between two ball.move while dragging
@@ -18,7 +19,7 @@ export class BallHand {
     this.balls = balls;
     this.actions = actions;
     this.canvas = stage.renderer.domElement;
-    this.raycaster = new Raycaster();
+    this.pointing = new Pointing(stage);
     this.drag = null;
     // Capture: the ball comes before the orbit.
     this.canvas.addEventListener('pointerdown', (event) => this.#take(event), {capture: true});
@@ -32,15 +33,8 @@ export class BallHand {
     return this.#hit(x, y)?.object.userData.ball;
   }
 
-  #aim(x, y) {
-    const box = this.canvas.getBoundingClientRect();
-    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
-    this.raycaster.setFromCamera(point, this.stage.camera);
-  }
-
   #hit(x, y) {
-    this.#aim(x, y);
-    return this.raycaster.intersectObjects(this.balls.group.children, false)[0] ?? null;
+    return this.pointing.hit(x, y, this.balls.group.children);
   }
 
   #take(event) {
@@ -87,8 +81,7 @@ export class BallHand {
   }
 
   #placeAt({clientX, clientY}) {
-    this.#aim(clientX, clientY);
-    return this.raycaster.ray.intersectPlane(this.drag.plane, new Vector3())?.add(this.drag.offset).toArray();
+    return this.pointing.ray(clientX, clientY).intersectPlane(this.drag.plane, new Vector3())?.add(this.drag.offset).toArray();
   }
 
   /** Sends where the ball is wanted, now and then as long as that changes. */

@@ -47,16 +47,17 @@ export class ClothView {
   }
 
   /**
-   * Shows the cloth between two records.
+   * Shows the cloth between two records; `pixel` is what one of the picture spans at the cloth, m.
    * @returns {boolean} whether the mesh still moves by itself (a morph is under way)
    */
-  show(before, after, share, nowMs) {
-    const mesh = this.morph.update(before, after, share, nowMs);
+  show(before, after, share, nowMs, pixel) {
+    const mesh = this.morph.update(before, after, share, nowMs, pixel);
     if (mesh.rows !== this.rows || mesh.cols !== this.cols) this.#rebuild(mesh.rows, mesh.cols);
     const {position, normal} = this.geometry.attributes;
     position.array.set(mesh.positions);
     gridNormals(mesh.positions, mesh.rows, mesh.cols, normal.array);
     position.needsUpdate = true;
+    this.geometry.boundingSphere = null;  // what a ray is tried against first: computed when one is
     normal.needsUpdate = true;
     this.record = after;
     this.centre = centreOf(after.positions);
@@ -66,6 +67,22 @@ export class ClothView {
   /** Half the diagonal of a cell as drawn, with a sixth for stretch, m. */
   get halfDiagonal() {
     return (Math.hypot(this.size[0] / (this.cols - 1), this.size[1] / (this.rows - 1)) / 2) * (7 / 6);
+  }
+
+  /** Where (u, v) is shown, m. */
+  placeAt(u, v) {
+    const positions = this.geometry.attributes.position.array;
+    const column = Math.min(this.cols - 2, Math.floor(u * (this.cols - 1))), row = Math.min(this.rows - 2, Math.floor(v * (this.rows - 1)));
+    const right = u * (this.cols - 1) - column, down = v * (this.rows - 1) - row;
+    const at = (r, c, axis) => positions[3 * (r * this.cols + c) + axis];
+    return [0, 1, 2].map((axis) =>
+      (1 - down) * ((1 - right) * at(row, column, axis) + right * at(row, column + 1, axis)) +
+      down * ((1 - right) * at(row + 1, column, axis) + right * at(row + 1, column + 1, axis)));
+  }
+
+  /** (u, v) of a point of the mesh by its texture coordinates. */
+  uvOf({x, y}) {
+    return [x / this.size[0], 1 - y / this.size[1]].map((share) => Math.min(1, Math.max(0, share)));
   }
 
   /** Lowest y shown, m. */

@@ -1,5 +1,6 @@
 import {BallHand} from './ball_hand.js';
 import {CameraRig, EyeReporter} from './camera_rig.js';
+import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
@@ -37,10 +38,10 @@ function start(settings) {
 
   // --- What the viewer wants ---
 
-  /** Sends a command; what goes wrong is told. */
-  const command = (message) =>
+  /** Sends a command; what goes wrong is told, but for one code that the sender expects. */
+  const command = (message, expected = 'closed') =>
     link.request(message).catch((error) => {
-      if (error.code !== 'closed') hud.toast(error.message);
+      if (error.code !== 'closed' && error.code !== expected) hud.toast(error.message);
       return null;
     });
   const nearest = () => show.levels(rig.eye)[0];
@@ -75,6 +76,10 @@ function start(settings) {
     },
     chooseBall: choose,
     moveBall: (ball, position) => command({op: 'ball.move', ball, position}),
+    setHandTool: (on) => {
+      clothHand.setTool(on);
+      panel.setHandTool(on);
+    },
   };
   let scenes = [];
   const panel = new Panel(actions);
@@ -83,6 +88,15 @@ function start(settings) {
     setQuality: (wish) => command({op: 'quality', ...wish}),
   });
   panel.setWireframe(settings.wireframe);
+  // Before the ball's hand: it takes what Shift and the tool make its own, and leaves the rest.
+  const clothHand = new ClothHand(stage, show, {
+    grab: async (cloth, u, v, position) => (await command({op: 'cloth.grab', cloth, u, v, position}))?.grab ?? null,
+    // A reset by somebody else may have ended it.
+    move: (grab, position) => command({op: 'grab.move', grab, position}, 'not_found'),
+    release: (grab) => command({op: 'grab.release', grab}, 'not_found'),
+    pin: (cloth, u, v) => command({op: 'cloth.pin', cloth, u, v}),
+    unpin: (cloth, u, v) => command({op: 'cloth.unpin', cloth, u, v}),
+  });
   const hand = new BallHand(stage, show.balls, {
     move: actions.moveBall,
     throw: (ball, velocity) => command({op: 'ball.throw', ball, velocity}),
@@ -91,6 +105,7 @@ function start(settings) {
   });
   new ResizeObserver(() => stage.setInsets(...panel.covers())).observe(document.getElementById('controls'));
   listenToKeys(rig, {
+    'h': () => actions.setHandTool(!clothHand.tool),
     'w': () => actions.setWireframe(!show.wireframe),
     ' ': () => link.connected && actions.setPaused(!panel.paused),
     '.': () => link.connected && panel.paused && actions.step(),
@@ -113,6 +128,7 @@ function start(settings) {
   link.addEventListener('state', ({detail}) => {
     hud.showConnection(detail.state);
     panel.setLive(detail.state === 'open');
+    clothHand.forget();
     cost.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
@@ -142,6 +158,7 @@ function start(settings) {
 
   const handlers = {
     scene: (message) => {
+      clothHand.forget();
       show.begin(message);
       eye.forget();
       if (sceneShown !== message.name) {
@@ -163,7 +180,12 @@ function start(settings) {
         panel.setWind(show.wind, show.hasWind);
       }
       if (typeof message.paused === 'boolean') panel.setPaused(message.paused);
-      if (message.kind === 'reset') tellNothing();
+      if (message.kind === 'cloth.pin' || message.kind === 'cloth.unpin') show.setPins(message.cloth, message.pins);
+      if (message.kind === 'reset') {
+        tellNothing();
+        clothHand.forget();
+        message.pins?.forEach((pins, cloth) => show.setPins(cloth, pins));
+      }
     },
     stats: (message) => {
       latest.stats = message;
@@ -234,7 +256,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, hand, counts, latest});
+  publishHook({link, show, rig, stage, hand, clothHand, counts, latest});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -247,7 +269,7 @@ function aimed(from, to, speed) {
 }
 
 /** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, hand, counts, latest}) {
+function publishHook({link, show, rig, stage, hand, clothHand, counts, latest}) {
   window.weft = {
     get stats() {
       return {
@@ -261,6 +283,8 @@ function publishHook({link, show, rig, stage, hand, counts, latest}) {
         settled: !show.moving && !stage.changed && !rig.flight,
         lastFrame: show.timeline.newest?.stamp ?? null,
         wind: show.wind,
+        hand: clothHand.held,
+        pins: Object.fromEntries(show.marks.held),
         server: latest.stats,
       };
     },

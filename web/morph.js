@@ -1,11 +1,15 @@
 import {mix, splitTo} from './grid.js';
 
-const kMorphMs = 250;
+const kMorphMs = 250;           // at least
+const kMostPixels = 1.5;        // a change of level moves no node farther between two pictures
+const kPictureMs = 1000 / 60;   // between two pictures
+const kSteepest = 1.5;          // slope of the ease, in the middle
 
 /**
  * Turns a cloth's frames into the mesh to draw. When the level changes, the mesh is drawn on the finer of the two grids and
  * slides from what was shown to what is sent, so that nothing pops: levels are nested, hence a coarse grid split up to the finer
- * one is the same sheet.
+ * one is the same sheet. Nodes that have far to go take longer, so that what the change adds to the cloth's own motion stays
+ * under kMostPixels from picture to picture.
  */
 export class Morph {
   /** @param {boolean} instant change level at once (the viewer prefers reduced motion) */
@@ -13,7 +17,7 @@ export class Morph {
     this.instant = instant;
     this.shown = null;     // {positions, rows, cols}: what was drawn last
     this.level = null;     // rows of the frames at present
-    this.residual = null;  // shown minus sent when the level changed, on the finer grid
+    this.residual = null;  // shown minus sent when the level changed, on the finer grid, and how long each node takes, ms
     this.startedMs = 0;
   }
 
@@ -26,18 +30,23 @@ export class Morph {
    * @param {{positions: Float32Array, rows: number, cols: number}} after
    * @param {number} share of `after`
    * @param {number} nowMs
+   * @param {number} pixel what a pixel of the picture spans at the cloth, m
    * @returns {{positions: Float32Array, rows: number, cols: number}} the mesh to draw; valid until the next call
    */
-  update(before, after, share, nowMs) {
+  update(before, after, share, nowMs, pixel = Infinity) {
     const live = this.#live(before, after, share);
-    if (this.level !== null && this.level !== live.rows && !this.instant) this.#begin(live, nowMs);
+    if (this.level !== null && this.level !== live.rows && !this.instant) this.#begin(live, nowMs, pixel);
     this.level = live.rows;
-    const progress = (nowMs - this.startedMs) / kMorphMs;
-    if (this.residual && progress < 1) {
-      const left = 1 - progress * progress * (3 - 2 * progress);
-      const fine = splitTo(live, this.residual.rows);
+    const elapsed = nowMs - this.startedMs;
+    if (this.residual && elapsed < this.residual.longest) {
+      const {positions: residual, durations, rows} = this.residual;
+      const fine = splitTo(live, rows);
       const positions = fine === live ? live.positions.slice() : fine.positions;
-      for (let i = 0; i < positions.length; ++i) positions[i] += this.residual.positions[i] * left;
+      for (let node = 0; node < durations.length; ++node) {
+        const progress = Math.min(1, elapsed / durations[node]);
+        const left = 1 - progress * progress * (3 - 2 * progress);
+        for (let i = 3 * node; i < 3 * node + 3; ++i) positions[i] += residual[i] * left;
+      }
       this.shown = {positions, rows: fine.rows, cols: fine.cols};
     } else {
       this.residual = null;
@@ -53,14 +62,18 @@ export class Morph {
     return {positions: mix(before.positions, after.positions, share, this.mixed), rows: after.rows, cols: after.cols};
   }
 
-  #begin(live, nowMs) {
+  #begin(live, nowMs, pixel) {
     const rows = Math.max(this.shown.rows, live.rows);
     const from = splitTo(this.shown, rows);
     const to = splitTo(live, rows);
     if (from.cols !== to.cols) return;  // another sheet altogether
     const positions = new Float32Array(to.positions.length);
     for (let i = 0; i < positions.length; ++i) positions[i] = from.positions[i] - to.positions[i];
-    this.residual = {positions, rows, cols: to.cols};
+    const durations = new Float32Array(positions.length / 3).map((_, node) => {
+      const way = Math.hypot(positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]);
+      return Math.max(kMorphMs, (kSteepest * kPictureMs * way) / (kMostPixels * pixel));
+    });
+    this.residual = {positions, durations, longest: durations.reduce((a, b) => Math.max(a, b)), rows, cols: to.cols};
     this.startedMs = nowMs;
   }
 }

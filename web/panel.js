@@ -20,6 +20,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
  * @property {(ball: number) => void} throwBall
  * @property {(ball: number) => void} chooseBall
  * @property {(ball: number, position: number[]) => void} moveBall
+ * @property {(on: boolean) => void} setHandTool
  */
 export class Panel {
   /** @param {Actions} actions */
@@ -70,6 +71,10 @@ export class Panel {
 
   setWireframe(on) {
     byId('wireframe').checked = on;
+  }
+
+  setHandTool(on) {
+    byId('hand').setAttribute('aria-pressed', String(on));
   }
 
   /** @param {{direction: number[], speed: number, gusts?: number}} wind @param {boolean} available whether the scene has an effect of wind */
@@ -137,6 +142,7 @@ export class Panel {
     byId('pause').addEventListener('click', () => actions.setPaused(!this.paused));
     byId('step').addEventListener('click', () => actions.step());
     byId('reset').addEventListener('click', () => actions.reset());
+    byId('hand').addEventListener('click', () => actions.setHandTool(byId('hand').getAttribute('aria-pressed') !== 'true'));
     byId('wireframe').addEventListener('change', (event) => actions.setWireframe(event.target.checked));
     byId('jumps').addEventListener('click', (event) => {
       const {distance} = event.target.dataset;

@@ -1,6 +1,7 @@
 import {BallsView} from './balls_view.js';
 import {ClothView, clothMaterials} from './cloth_view.js';
 import {Loupe} from './loupe.js';
+import {MarksView} from './marks_view.js';
 import {ObstaclesView} from './obstacles_view.js';
 import {Timeline} from './timeline.js';
 import {weaveTextures} from './weave.js';
@@ -24,12 +25,13 @@ export class Show {
     this.timeline = new Timeline();
     this.balls = new BallsView();
     this.obstacles = new ObstaclesView();
+    this.marks = new MarksView();
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
     this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
     this.materials.fabric.polygonOffset = this.wireframe;
-    stage.scene.add(this.balls.group, this.obstacles.group);
+    stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
     this.description = null;
@@ -46,11 +48,13 @@ export class Show {
     this.cloths.clear();
     this.balls.clear();
     this.obstacles.show(message.obstacles ?? []);
+    this.marks.clear();
     for (const description of message.cloths) {
       const view = new ClothView(description, this.materials, this.instant);
       view.wireframe = this.wireframe;
       this.stage.scene.add(view.group);
       this.cloths.set(view.id, view);
+      this.setPins(view.id, description.pins ?? []);
     }
     this.setWind(message.wind);
     this.framesShown = 0;
@@ -68,6 +72,28 @@ export class Show {
     this.stage.changed = true;
   }
 
+  /** @param {number} cloth @param {{u: number[], v: number[]}[]} pins what holds it now */
+  setPins(cloth, pins) {
+    this.marks.setPins(cloth, pins);
+  }
+
+  /** A pin of `cloth` no farther from (u, v) than a share of the cloth's shorter side, or undefined. */
+  pinNear(cloth, u, v, share) {
+    const {size} = this.cloths.get(cloth);
+    const off = (at, [from, to]) => Math.max(from - at, at - to, 0);
+    return this.marks.held.get(cloth)
+      .find((pin) => Math.hypot(size[0] * off(u, pin.u), size[1] * off(v, pin.v)) <= share * Math.min(...size));
+  }
+
+  clothMeshes() {
+    return [...this.cloths.values()].flatMap((view) => view.mesh ?? []);
+  }
+
+  /** The cloth that is drawn by a mesh, or undefined. */
+  clothOf(mesh) {
+    return [...this.cloths.values()].find((view) => view.mesh === mesh);
+  }
+
   setWireframe(on) {
     this.wireframe = on;
     this.materials.fabric.polygonOffset = on;
@@ -82,6 +108,10 @@ export class Show {
 
   /** Shows the moment `nowMs` (drawing time) of the buffer, whose clock reads `bufferMs`. */
   update(nowMs, bufferMs) {
+    if (this.marks.changed) {
+      this.marks.update(this.cloths);
+      this.stage.changed = true;
+    }
     if (!this.moving) return;
     const moment = this.timeline.sample(bufferMs);
     if (!moment || !this.description) return;
@@ -91,11 +121,12 @@ export class Show {
       const view = this.cloths.get(record.cloth);
       if (!view) continue;
       const earlier = before.cloths.find((each) => each.cloth === record.cloth) ?? record;
-      morphing = view.show(earlier, record, share, nowMs) || morphing;
+      morphing = view.show(earlier, record, share, nowMs, view.centre ? this.stage.pixelAt(view.centre) : Infinity) || morphing;
     }
     const coarsest = Math.max(0, ...[...this.cloths.values()].map((view) => view.halfDiagonal || 0));
     this.balls.show(before.balls, after.balls, share, coarsest);
     this.obstacles.move(before.obstacles, after.obstacles, share);
+    this.marks.update(this.cloths);
     this.stamp = after.stamp;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;

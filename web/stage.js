@@ -122,6 +122,12 @@ export class Stage {
     apply();
   }
 
+  /** What a pixel of the picture spans at a point, m. */
+  pixelAt([x, y, z]) {
+    const distance = this.camera.position.distanceTo({x, y, z});
+    return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.renderer.domElement.clientHeight;
+  }
+
   #resize() {
     const {clientWidth, clientHeight} = this.renderer.domElement;
     if (clientWidth === 0 || clientHeight === 0) return;

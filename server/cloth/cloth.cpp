@@ -225,6 +225,12 @@ bool Cloth<Real>::unpin(const Vec2& at) {
 }
 
 template <class Real>
+void Cloth<Real>::moved_from_outside() {
+  guard_.amend(particles_);
+  if (asleep()) wake();
+}
+
+template <class Real>
 void Cloth<Real>::set_pins() {
   guard_.repair(particles_);
   pins_ = Pins<Real>(description_.pins, time_, particles_);
@@ -264,7 +270,8 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   EffectContext context{&description_, &air.wind(), time};
   context.gusts = air.gusts();
   context.node_air = node_air(air, time, dt);
-  const Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr, plate()};
+  Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr, plate()};
+  if (layers_ != nullptr && !layers_->empty()) forces.layers = layers_;
   return integrator_->advance(particles_, forces, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 

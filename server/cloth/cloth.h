@@ -49,6 +49,11 @@ class Cloth {
   void pin(const Vec2& at);
   /// Lets go of the pin that holds (u, v), or of the nearest one; false if there is none.
   bool unpin(const Vec2& at);
+  /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
+  void set_layers(LayerContacts<Real>* layers) { layers_ = layers; }
+  /// Someone has written to particles() since the last step: that state is the last good one now, if it is
+  /// good.
+  void moved_from_outside();
   /// Adds an effect of the caller's own to the description's. If its forces change while the cloth sleeps it
   /// is the caller who wakes it. Tests inject faults so.
   void add_effect(std::unique_ptr<Effect<Real>> effect);
@@ -106,8 +111,9 @@ class Cloth {
   std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
-  std::vector<Solid> solids_;               ///< as the cloth moves them in the step
-  int nodes_in_contact_ = 0;                ///< at the end of the last step that was made
+  std::vector<Solid> solids_;  ///< as the cloth moves them in the step
+  int nodes_in_contact_ = 0;   ///< at the end of the last step that was made
+  LayerContacts<Real>* layers_ = nullptr;
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
   std::unique_ptr<NodeAir> node_air_;       ///< made when the wind first differs from node to node
   ContactCounters earlier_contacts_;        ///< at the levels left behind

@@ -69,6 +69,13 @@ struct StrainLimitEffect {
   static constexpr const char* kName = "strain_limit";
 };
 
+/// Cloth does not pass through itself nor through another cloth of the scene (layers/layers.h).
+struct ClothContactEffect {
+  double thickness = 0.005;  ///< kept between layers, m; finite, > 0. Held to half a cell of a level.
+  double friction = 0.3;     ///< Coulomb's coefficient between cloth and cloth, >= 0
+  static constexpr const char* kName = "cloth_contact";
+};
+
 /// Air under a sheet that is held all round its rim, as under an air-supported roof or in a bouncy castle: a
 /// pressure above that outside, kept up whatever the volume, pushes every face along its normal, F = p A. A
 /// sheet whose rim is free is pushed from its back.
@@ -79,7 +86,7 @@ struct InflationEffect {
 
 using EffectDescription =
     std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
-                 PlateBendingEffect, StrainLimitEffect, InflationEffect>;
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect>;
 
 // --- Things in the scene ---
 

@@ -62,8 +62,8 @@ Plate<Real>::Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>
 
 template <class Real>
 void Plate<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
-  kernels::add_plate<Real>(stencils(), grid(), kernels::components(position), Real(-1), free_.row(0),
-                           kernels::components(force), {0, grid().rows}, work_.data());
+  kernels::subtract_plate<Real>(stencils(), grid(), kernels::components(position), free_.row(0),
+                                kernels::components(force), {0, grid().rows}, work_.data());
 }
 
 template <class Real>

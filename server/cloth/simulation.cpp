@@ -38,6 +38,12 @@ void Simulation<Real>::reset() {
   air_ = Air(description_.wind, description_.seed);
   colliders_ = Colliders(description_.balls, description_.obstacles);
   cloths_ = make_cloths<Real>(description_);
+  layers_.reset();
+  for (const EffectDescription& effect : description_.effects) {
+    if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
+      layers_ = std::make_unique<Layers<Real>>(*contact);
+    }
+  }
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;
   next_grab_ = 1;
@@ -80,7 +86,19 @@ void Simulation<Real>::step() {
 
   colliders_.begin_step(time(), dt, gravity_);
   if (cloths_.size() > 1) share_balls(dt);
+  double layers = 0;  // s
+  if (layers_) {
+    const auto search = Clock::now();
+    layers_->begin_step(cloths_, dt);
+    layers += seconds(Clock::now() - search);
+  }
   advance_cloths(dt);
+  if (layers_) {
+    const auto net = Clock::now();
+    layers_->end_step(cloths_, dt);
+    layers += seconds(Clock::now() - net);
+  }
+  profile_.contact = layers;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     cloths_[i].push_balls(colliders_);
     profile_.forces += last_advance_[i].forces_seconds;

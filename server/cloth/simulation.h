@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/layers/layers.h"
 
 namespace weft {
 
@@ -49,6 +50,8 @@ class Simulation {
   const std::vector<Cloth<Real>>& cloths() const { return cloths_; }
   std::vector<Cloth<Real>>& cloths() { return cloths_; }
   const Colliders& colliders() const { return colliders_; }
+  /// nullptr where cloths pass through themselves.
+  const Layers<Real>* layers() const { return layers_.get(); }
   const Wind& wind() const { return air_.wind(); }
   Vec3 gravity() const { return gravity_; }
   /// Energies and strain, computed now: not part of a step.
@@ -95,6 +98,7 @@ class Simulation {
   Air air_;
   Colliders colliders_;
   std::vector<Cloth<Real>> cloths_;
+  std::unique_ptr<Layers<Real>> layers_;  ///< if the scene lists cloth_contact
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;
   GrabId next_grab_ = 1;

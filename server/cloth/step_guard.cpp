@@ -86,6 +86,16 @@ auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& rep
 }
 
 template <class Real>
+void StepGuard<Real>::amend(Particles<Real>& particles) {
+  const Finding finding = look_at(particles);
+  if (finding.fault == Fault::none) {
+    keep(particles, finding.speed);
+  } else {
+    restore(particles);
+  }
+}
+
+template <class Real>
 void StepGuard<Real>::repair(Particles<Real>& particles) {
   const Finding finding = look_at(particles);
   if (finding.fault == Fault::none) return;

@@ -52,6 +52,9 @@ class StepGuard {
   };
   /// Judges a step.
   Verdict judge(Particles<Real>& particles, const AdvanceReport& report);
+  /// The state was changed after the step it was judged in: it is the last good one from now on, if it is
+  /// good, or else put back.
+  void amend(Particles<Real>& particles);
   /// Before the particles are used for something else than a step, as a level change: if they are bad they
   /// are put back to the last good state.
   void repair(Particles<Real>& particles);

@@ -208,6 +208,11 @@ void LiveScene::balls_changed(std::string_view kind, BallId id) {
   tell_event(kind, takes_effect_, {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
 }
 
+void LiveScene::pins_changed(std::string_view kind, std::size_t cloth) {
+  const ClothDescription& description = simulation_.cloths()[cloth].description();
+  tell_event(kind, takes_effect_, {{"cloth", cloth}, {"pins", pins_json(description)}});
+}
+
 void LiveScene::tell_all(std::string text) {
   const Text message = make_text(std::move(text));
   for (const Seat& seat : seats_) seat.viewer->send(seat.visit, message);

@@ -106,6 +106,7 @@ class LiveScene {
   void remove_lost_balls();
   void state_changed();
   void balls_changed(std::string_view kind, BallId id);
+  void pins_changed(std::string_view kind, std::size_t cloth);
   void tell_all(std::string text);
   void tell_event(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
   void tell_curve();  ///< to those who asked, once it is known

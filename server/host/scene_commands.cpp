@@ -160,6 +160,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothPin& pin, Seat&) {
     return refused("limit", "", "the cloth has " + std::to_string(kMaxPins) + " pins, the most allowed");
   }
   simulation_.pin(pin.cloth, {pin.u, pin.v});
+  pins_changed("cloth.pin", pin.cloth);
   return json::object();
 }
 
@@ -168,6 +169,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&
   if (!simulation_.unpin(unpin.cloth, {unpin.u, unpin.v})) {
     return refused("not_found", "/cloth", "/cloth is " + std::to_string(unpin.cloth) + "; it has no pins");
   }
+  pins_changed("cloth.unpin", unpin.cloth);
   return json::object();
 }
 
@@ -243,7 +245,8 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
               {"time", 0.0},
               {"paused", paused_},
               {"wind", wind_json(simulation_.wind())},
-              {"balls", balls_json(simulation_.colliders())}});
+              {"balls", balls_json(simulation_.colliders())},
+              {"pins", pins_json(simulation_.cloths())}});
   request_levels();
   return json::object();
 }

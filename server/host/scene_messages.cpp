@@ -9,16 +9,17 @@ using nlohmann::json;
 
 json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-json cloths_json(const SimulationDescription& description) {
+json cloths_json(const Simulation<float>& simulation) {
   json cloths = json::array();
-  for (std::size_t i = 0; i < description.cloths.size(); ++i) {
-    const ClothDescription& cloth = description.cloths[i];
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
+    const ClothDescription& cloth = simulation.cloths()[i].description();
     cloths.push_back({{"cloth", i},
                       {"name", cloth.name},
                       {"size", {cloth.size.x(), cloth.size.y()}},
                       {"base_cells", {cloth.base_cells.cols, cloth.base_cells.rows}},
                       {"min_level", cloth.min_level},
-                      {"max_level", cloth.max_level}});
+                      {"max_level", cloth.max_level},
+                      {"pins", pins_json(cloth)}});
   }
   return cloths;
 }
@@ -65,6 +66,20 @@ json wind_json(const Wind& wind) {
   return message;
 }
 
+json pins_json(const ClothDescription& cloth) {
+  json pins = json::array();
+  for (const PinRegion& pin : cloth.pins) {
+    pins.push_back({{"u", {pin.u_min, pin.u_max}}, {"v", {pin.v_min, pin.v_max}}});
+  }
+  return pins;
+}
+
+json pins_json(const std::vector<Cloth<float>>& cloths) {
+  json pins = json::array();
+  for (const Cloth<float>& cloth : cloths) pins.push_back(pins_json(cloth.description()));
+  return pins;
+}
+
 json balls_json(const Colliders& colliders) {
   json balls = json::array();
   for (const Ball& ball : colliders.balls()) {
@@ -93,7 +108,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
       {"effects", effects_json(description)},
       {"wind", wind_json(simulation.wind())},
       {"balls", balls_json(simulation.colliders())},
-      {"cloths", cloths_json(description)},
+      {"cloths", cloths_json(simulation)},
       {"level_policy",
        {{"thresholds", policy.thresholds}, {"levels", policy.levels}, {"hysteresis", policy.hysteresis}}},
       {"camera",

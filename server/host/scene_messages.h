@@ -17,6 +17,10 @@ struct SceneState {
 
 nlohmann::json wind_json(const Wind& wind);
 nlohmann::json balls_json(const Colliders& colliders);
+/// What holds one cloth now.
+nlohmann::json pins_json(const ClothDescription& cloth);
+/// What holds each of them.
+nlohmann::json pins_json(const std::vector<Cloth<float>>& cloths);
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);

@@ -44,13 +44,15 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kAirDensity{0, 1e4, "kg/m3"};
   constexpr Range kCoefficient{0, 100};
   constexpr Range kDampingTime{0, 10, "s"};
+  constexpr Range kThickness{1e-4, 1, "m"};
+  constexpr Range kFriction{0, 10};
   constexpr Range kPressure{-1e6, 1e6, "Pa"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
   switch (
       object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
                              AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
-                             StrainLimitEffect::kName, InflationEffect::kName})) {
+                             StrainLimitEffect::kName, ClothContactEffect::kName, InflationEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -82,6 +84,12 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     case 6:
       return StrainLimitEffect{};
     case 7: {
+      ClothContactEffect contact;
+      object.number("thickness", contact.thickness, kThickness);
+      object.number("friction", contact.friction, kFriction);
+      return contact;
+    }
+    case 8: {
       InflationEffect inflation;
       object.number("pressure", inflation.pressure, kPressure);
       return inflation;

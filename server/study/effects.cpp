@@ -44,6 +44,16 @@ struct Variant {
   std::vector<double> frames;
 };
 
+/// Pins that go with an obstacle stay where they are.
+SimulationDescription without_colliders(SimulationDescription description) {
+  description.balls.clear();
+  description.obstacles.clear();
+  for (ClothDescription& cloth : description.cloths) {
+    for (PinRegion& pin : cloth.pins) pin.obstacle.reset();
+  }
+  return description;
+}
+
 std::string row(std::string_view name, double milliseconds, double all) {
   char text[100];
   std::snprintf(text, sizeof text, "  %-24.*s %9.4f %7.1f %%\n", static_cast<int>(name.size()), name.data(),
@@ -56,26 +66,25 @@ std::string row(std::string_view name, double milliseconds, double all) {
 EffectsStudy study_effects(const SimulationDescription& description, int level, int frames,
                            const std::function<void()>& watch) {
   const std::size_t effects = description.effects.size();
-  std::vector<Variant> variants;  // all, without the first, ..., without the last, none
-  variants.reserve(effects + 2);
+  std::vector<Variant> variants;  // all, without the first effect, ..., without the last, no contact, none
+  variants.reserve(effects + 3);
   variants.emplace_back(description, level);
   for (std::size_t i = 0; i < effects; ++i) {
     SimulationDescription without = description;
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
     variants.emplace_back(without, level);
   }
-  SimulationDescription bare = description;
+  SimulationDescription bare = without_colliders(description);
+  variants.emplace_back(bare, level);
   bare.effects.clear();
   variants.emplace_back(bare, level);
-  Variant &all = variants.front(), &none = variants.back();
+  const Variant &all = variants.front(), &no_contact = variants[effects + 1], &none = variants.back();
 
-  std::vector<double> contact;
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t i = 1; i < variants.size(); ++i) variants[i].begin_at(all.simulation);
     for (std::size_t i = 0; i < variants.size(); ++i) {
       variants[(i + static_cast<std::size_t>(frame)) % variants.size()].step();
     }
-    contact.push_back(1e3 * all.simulation.profile().contact);
     watch();
   }
 
@@ -87,8 +96,10 @@ EffectsStudy study_effects(const SimulationDescription& description, int level, 
         std::visit([](const auto& each) { return std::string_view(each.kName); }, description.effects[i]);
     study.effects.push_back({name, middle_difference(all.frames, variants[i + 1].frames)});
   }
-  study.contact = middle_mean(contact);
-  study.rest = middle_mean(none.frames) - study.contact;
+  if (!description.balls.empty() || !description.obstacles.empty()) {
+    study.contact = middle_difference(all.frames, no_contact.frames);
+  }
+  study.rest = middle_mean(none.frames);
   return study;
 }
 

@@ -88,6 +88,22 @@ test('a change of level begins where the cloth was shown and ends where it is se
   }
 });
 
+test('a change of level moves nothing by more than 1.5 pixels between two pictures', () => {
+  // A sheet of 32 cells that stands up to 0.3 m off the one of 16 that it was, 1 mm a pixel.
+  const fine = sheet(32);
+  for (let i = 0; i < fine.positions.length; i += 3) fine.positions[i + 2] = 0.3 * fine.positions[i];
+  const morph = new Morph();
+  morph.update(sheet(16), sheet(16), 1, 0, 1e-3);
+  let shown = morph.update(fine, fine, 1, 1000, 1e-3), most = 0, pictures = 0;
+  while (morph.active) {
+    const next = morph.update(fine, fine, 1, 1000 + (++pictures * 1000) / 60, 1e-3);
+    for (let i = 2; i < next.positions.length; i += 3) most = Math.max(most, Math.abs(next.positions[i] - shown.positions[i]));
+    shown = {positions: next.positions.slice()};
+  }
+  assert.ok(most <= 1.5e-3 && most > 1.4e-3, `${1e3 * most} pixels`);
+  assert.equal(pictures, 300);  // 0.3 m at 1.5 mm a picture, where the ease is steepest by 1.5
+});
+
 test('a change of level is instant for who prefers reduced motion', () => {
   const morph = new Morph(true);
   morph.update(sheet(64), sheet(64), 1, 0);

@@ -24,7 +24,8 @@ EFFECTS = {
     "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
     "inflation": ({}, ["weft::Inflation<", r"kernels::add_pressure.*clone"]),
     "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
-    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|relax)_plate.*clone"]),
+    "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet)::"]),
+    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
 }
 
 

@@ -1,6 +1,7 @@
 #include "criteria.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloth/diagnostics.h"
 #include "cloth/integrators/softened_springs.h"
@@ -115,6 +116,12 @@ double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now) {
   double largest = 0;
   for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
   return largest;
+}
+
+double root_mean_square_movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now) {
+  double sum = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) sum += (now[i] - before[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(now.size()));
 }
 
 void Jitter::add(std::vector<Vec3> positions) {

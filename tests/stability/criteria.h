@@ -39,6 +39,7 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
 
 /// The largest distance of a node from where it was, m.
 double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now);
+double root_mean_square_movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now);  ///< m
 
 /// How nodes shake: the largest change of a node's move from one step to the next.
 class Jitter {

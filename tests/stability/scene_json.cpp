@@ -87,6 +87,9 @@ struct EffectWriter {
   json operator()(const StrainDampingEffect& e) const { return {{"time", e.time}}; }
   json operator()(const PlateBendingEffect&) const { return json::object(); }
   json operator()(const StrainLimitEffect&) const { return json::object(); }
+  json operator()(const ClothContactEffect& e) const {
+    return {{"thickness", e.thickness}, {"friction", e.friction}};
+  }
   json operator()(const InflationEffect& e) const { return {{"pressure", e.pressure}}; }
 };
 

@@ -14,6 +14,9 @@ namespace {
 /// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
 constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
 
+/// A share of a change is found this finely.
+constexpr double kShareStep = 1.0 / 1024;
+
 /// along n n^T + across (I - n n^T).
 Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
   const double both = along - across;
@@ -161,6 +164,31 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
     if (c.body) bodies.attach(*c.body, i, stiffness, force);
   }
   bodies.eliminate(b);
+}
+
+template <class Real>
+double ContactConstraints<Real>::best_share(kernels::Components<const Real> move,
+                                            kernels::Components<const Real> change,
+                                            const AttachedBodies<Real>& bodies, double decrease) const {
+  // The slope of the energy, which is convex, along the change.
+  const auto slope = [&](double share) {
+    double sum = -2 * decrease * (1 - share);
+    for (const Constraint& c : constraints_) {
+      Vec3 way = at(change, c.touch.node);
+      if (c.body) way -= bodies.change(*c.body);
+      const double approach = -c.normal.dot(way);
+      const double depth = c.distance - c.normal.dot(move_of(c, move, bodies)) + share * approach;
+      if (c.released == (depth > 0)) sum += (c.released ? 1 : -1) * c.stiffness * depth * approach;
+    }
+    return sum;
+  };
+  if (slope(1) <= 0) return 1;
+  double low = 0, high = 1;
+  while (high - low > kShareStep) {
+    const double middle = (low + high) / 2;
+    (slope(middle) > 0 ? high : low) = middle;
+  }
+  return high;
 }
 
 template <class Real>

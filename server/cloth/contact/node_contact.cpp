@@ -26,13 +26,11 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
     for (std::size_t i = 0; i < solids.size(); ++i) {
       MovingSolid& moving = solids[i];
       if (!moving.shape.contains(position_)) continue;
-      Surface surface = moving.shape.surface(position_);
-      const Vec3 held = lose_velocity(moving, surface.normal);
-      if (!held.isZero(0)) {
-        set_position(position_ - seconds_ * held);
-        surface = moving.shape.surface(position_);
-      }
-      moved = put_on(moving, surface) || moved;
+      const Surface surface = moving.shape.surface(position_);
+      const double held = lose_velocity(moving, surface.normal);
+      bool outside = put_on(moving, surface);
+      if (held > 0) outside = slide_back(moving, held);
+      moved = outside || moved;
       met = true;
       if (round == 0) touches.push_back(touch(*moving.solid));
       if (solids.size() > 1) note(found, i, surface.normal);
@@ -134,20 +132,32 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
   return true;
 }
 
-/// Takes away the velocity, relative to the solid's, that points against `normal`, and what friction then
-/// takes of the rest, of which the node's share is returned.
+/// Friction takes back `share` of the way slid from where the node began, put at the same height: from
+/// surface to surface, as a node that is held whole would creep against what pulls it if it were led back
+/// along the tangent plane at a place that it does not reach. As put_on.
 template <class Real>
-Vec3 NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal) {
+bool NodeContact<Real>::slide_back(const MovingSolid& moving, double share) {
+  const Vec3 began = start_ + moving.move_of(start_, 0);
+  const Surface first = moving.shape.surface(began), last = moving.shape.surface(position_);
+  const Vec3 held = began + (last.distance - first.distance) * first.normal;
+  set_position(position_ + share * (held - position_));
+  return put_on(moving, moving.shape.surface(position_));
+}
+
+/// Takes away the velocity, relative to the solid's, that points against `normal`, and what friction then
+/// takes of the rest. Returns the share of the node's slide that this takes.
+template <class Real>
+double NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal) {
   const Vec3 velocity = particles_.velocity_at(row_, col_);
   const Vec3 relative = velocity - moving.velocity_at(position_);
   const double inward = relative.dot(normal);
-  if (!(inward < 0)) return Vec3::Zero();
+  if (!(inward < 0)) return 0;
   const Vec3 stopped = inward * normal, sliding = relative - stopped;
   const double speed = moving.solid->friction > 0 ? sliding.norm() : 0.0;
-  Vec3 held =
-      speed > 0 ? Vec3(std::min(1.0, -moving.solid->friction * inward / speed) * sliding) : Vec3(0, 0, 0);
-  const double share = part_with(stopped + held, moving);
-  set_velocity(velocity - share * (stopped + held));
+  const double held = speed > 0 ? std::min(1.0, -moving.solid->friction * inward / speed) : 0.0;
+  const Vec3 lost = stopped + held * sliding;
+  const double share = part_with(lost, moving);
+  set_velocity(velocity - share * lost);
   return share * held;
 }
 

@@ -78,7 +78,8 @@ class NodeContact {
   static std::optional<std::size_t> pinching(const std::vector<Found>& found,
                                              const std::vector<MovingSolid>& solids);
   void hold_at(MovingSolid& still);
-  Vec3 lose_velocity(MovingSolid& moving, const Vec3& normal);
+  double lose_velocity(MovingSolid& moving, const Vec3& normal);
+  bool slide_back(const MovingSolid& moving, double share);
   double part_with(const Vec3& lost, MovingSolid& moving);
   bool put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);

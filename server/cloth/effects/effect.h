@@ -61,7 +61,7 @@ extern template class Effect<double>;
 
 /// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
 /// Those that belong to the sheet itself, strain_damping, strain_limit and plate_bending, are left to Springs
-/// and Plate.
+/// and Plate, cloth_contact to the simulation.
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
 

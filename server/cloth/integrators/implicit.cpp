@@ -93,10 +93,12 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
-    begin_substep(particles, h);
+    if (forces.layers != nullptr) forces.layers->begin(particles, part);
+    begin_substep(particles, forces.layers, h);
     report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
+    if (forces.layers != nullptr) forces.layers->finish(state_->move);
     if (contact != nullptr) {
       const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
@@ -123,18 +125,22 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
   }
   if (state_->soft) forces.springs = &*state_->soft;
+  if (forces.layers == nullptr) state_->system.couplings().clear();
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
 }
 
 template <class Real>
-void Implicit<Real>::begin_substep(const Particles<Real>& particles, double h) {
+void Implicit<Real>::begin_substep(const Particles<Real>& particles, const LayerContacts<Real>* layers,
+                                   double h) {
   State& s = *state_;
   s.h = h;
   const std::size_t count = particles.grid().size();
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
-  s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  const auto begin_anew = [&](std::size_t node) { s.second_order[node] = Real(0); };
+  s.contacts.for_each_node(begin_anew);
+  if (layers != nullptr) layers->for_each_node(begin_anew);
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
   begin_formula(h);
@@ -181,6 +187,9 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   if (!s.contacts.empty()) {
     s.contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
                       forces.springs->node_stiffness(), s.move);
+  }
+  if (forces.layers != nullptr) {
+    forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
   }
   s.system.prepare();
 }
@@ -257,16 +266,40 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
     const bool found = changed.taken || decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
-    const bool pulled = s.contacts.release_pulling(s.move, s.system.bodies()) > solved.target;
-    if (report.brought_in <= 0 && !pulled &&
-        (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
-      break;
+    double error = changed.error, pulling = 0;
+    if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
+    if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
+    error = std::max(error, pulling);
+    if (report.brought_in <= 0 && (error <= solved.target || (left <= 1 && error <= kRough * s.scale))) break;
   }
   return report;
 }
 
 template <class Real>
+void Implicit<Real>::scale_change(double share) {
+  State& s = *state_;
+  for (Real* component : {s.change.x, s.change.y, s.change.z}) {
+    std::transform(component, component + s.system.grid().size(), component,
+                   [part = static_cast<Real>(share)](Real x) { return part * x; });
+  }
+  s.system.bodies().scale_changes(share);
+}
+
+template <class Real>
 auto Implicit<Real>::whole_change(const Springs<Real>& springs, double decrease) -> ChangeReport {
+  State& s = *state_;
+  double left_over = 0;
+  if (!s.contacts.empty()) {
+    const double share = s.contacts.best_share(s.move, s.change, s.system.bodies(), decrease);
+    if (share < 1) scale_change(share);
+    left_over = (1 - share) * (1 - share) * decrease;
+  }
+  const ChangeReport report = model_change(springs, decrease - left_over);
+  return {report.brought_in, std::max(report.error, left_over)};
+}
+
+template <class Real>
+auto Implicit<Real>::model_change(const Springs<Real>& springs, double decrease) const -> ChangeReport {
   const kernels::SpringModelError error =
       springs.model_error(state_->system.grid(), state_->position, state_->change);
   return {error.sum - decrease, error.magnitude};
@@ -277,13 +310,9 @@ auto Implicit<Real>::searched_change(const Springs<Real>& springs, double decrea
   const kernels::Components<Real> change = state_->change;
   for (double share = 1; share > kSmallestShare; share /= 2) {
     // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = whole_change(springs, share * (2 - share) * decrease);
+    const ChangeReport report = model_change(springs, share * (2 - share) * decrease);
     if (report.brought_in <= 0) return report;
-    for (Real* component : {change.x, change.y, change.z}) {
-      std::transform(component, component + state_->system.grid().size(), component,
-                     [](Real x) { return x / 2; });
-    }
-    state_->system.bodies().scale_changes(0.5);
+    scale_change(0.5);
   }
   clear(change, state_->system.grid().size());
   state_->system.bodies().scale_changes(0);

@@ -15,10 +15,12 @@ namespace weft {
 ///
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
-/// of the motion's energy, if a contact's constraint pulled, or if the step brings in energy, some further
-/// ones are made; if it still brings in energy, the step is taken back and made again by backward Euler with
-/// a line search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization,
-/// 2006, chapter 3). Not searched at once, as a halved change does not keep the momentum.
+/// of the motion's energy, if a contact's constraint pulled, if only a share of the change was taken, as
+/// contacts that the system did not hold came in its way (ContactConstraints::best_share), or if the step
+/// brings in energy, some further ones are made; if it still brings in energy, the step is taken back and
+/// made again by backward Euler with a line search: each change is halved until it brings in none (Nocedal
+/// and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a halved change does not
+/// keep the momentum.
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
@@ -64,7 +66,7 @@ class Implicit final : public Integrator<Real> {
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
-  void begin_substep(const Particles<Real>& particles, double h);
+  void begin_substep(const Particles<Real>& particles, const LayerContacts<Real>* layers, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
   /// Adds the springs' damping, by the nodes' moves so far, to the forces.
@@ -76,7 +78,7 @@ class Implicit final : public Integrator<Real> {
   };
   struct ChangeReport {
     double brought_in = 0;  ///< energy, J
-    double error = 0;       ///< how far the springs' linearisation is off, J
+    double error = 0;       ///< how far the springs' linearisation is off, or what is left to gain, J
     bool taken = true;      ///< not dropped
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
@@ -87,8 +89,12 @@ class Implicit final : public Integrator<Real> {
   void begin_formula(double h);
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  /// Less than the whole where contacts come in its way.
   ChangeReport whole_change(const Springs<Real>& springs, double decrease);
   ChangeReport searched_change(const Springs<Real>& springs, double decrease);
+  /// Of the change as it is.
+  ChangeReport model_change(const Springs<Real>& springs, double decrease) const;
+  void scale_change(double share);
   void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
 
   const char* name_;

@@ -3,6 +3,7 @@
 
 #include "cloth/contact/contact.h"
 #include "cloth/effects/effect.h"
+#include "cloth/layers/layer_contacts.h"
 #include "cloth/pins.h"
 #include "cloth/plate.h"
 #include "cloth/springs.h"
@@ -15,8 +16,9 @@ struct Forces {
   const Springs<Real>* springs = nullptr;
   const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
   EffectContext context;
-  const Pins<Real>* pins = nullptr;    ///< if any of them moves
-  const Plate<Real>* plate = nullptr;  ///< if the scene bends plates
+  const Pins<Real>* pins = nullptr;       ///< if any of them moves
+  const Plate<Real>* plate = nullptr;     ///< if the scene bends plates
+  LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {

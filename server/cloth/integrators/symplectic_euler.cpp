@@ -76,6 +76,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     update(particles, force_, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
+    if (forces.layers != nullptr) forces.layers->resolve(particles, Substep::of(s, report.substeps, dt));
     if (contact == nullptr) continue;
     report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
     report.contact_seconds += seconds(Clock::now() - moved);

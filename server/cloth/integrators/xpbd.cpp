@@ -47,6 +47,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     if (last) make_acceleration(particles, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
+    if (forces.layers != nullptr) forces.layers->resolve(particles, Substep::of(s, report.substeps, dt));
     if (contact == nullptr) continue;
     report.nodes_in_contact =
         contact->resolve(particles, solids, Substep::of(s, report.substeps, dt), nullptr, &rounded_off_);

@@ -151,9 +151,8 @@ template <class Real, class Finish>
 
 template <class Real>
 [[gnu::always_inline]] inline double add_any(const PlateStencils<Real>& plate, const Grid& grid,
-                                             const Components<const Real>& x, Real factor,
-                                             const Real* free_nodes, const Components<Real>& y, RowRange rows,
-                                             Real* work) {
+                                             const Components<const Real>& x, const Real* free_nodes,
+                                             const Components<Real>& y, RowRange rows, Real* work) {
   double sum = 0;
   const int count = grouped(grid.cols);
   for_each_row(plate, grid, x, rows, work, [&](int r, const Components<Real>& product) WEFT_INLINE_LAMBDA {
@@ -162,7 +161,7 @@ template <class Real>
     const auto add = [&](Real* __restrict out, Real* __restrict k_x) WEFT_INLINE_LAMBDA {
       WEFT_INDEPENDENT_ITERATIONS
       for (int c = 0; c < count; ++c) {
-        k_x[c] *= factor * free[c];
+        k_x[c] *= free[c];
         out[c] += k_x[c];
       }
     };
@@ -174,6 +173,24 @@ template <class Real>
     sum += dot.sum();
   });
   return sum;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void subtract_any(const PlateStencils<Real>& plate, const Grid& grid,
+                                                const Components<const Real>& x, const Real* free_nodes,
+                                                const Components<Real>& y, RowRange rows, Real* work) {
+  const int count = grouped(grid.cols);
+  for_each_row(plate, grid, x, rows, work, [&](int r, const Components<Real>& product) WEFT_INLINE_LAMBDA {
+    const std::size_t first = grid.index(r, 0);
+    const Real* __restrict free = free_nodes + first;
+    const auto subtract = [&](Real* __restrict out, const Real* __restrict k_x) WEFT_INLINE_LAMBDA {
+      WEFT_INDEPENDENT_ITERATIONS
+      for (int c = 0; c < count; ++c) out[c] -= free[c] * k_x[c];
+    };
+    subtract(y.x + first, product.x);
+    subtract(y.y + first, product.y);
+    subtract(y.z + first, product.z);
+  });
 }
 
 template <class Real>
@@ -213,9 +230,15 @@ std::size_t plate_work_size(const Grid& grid) {
 #define WEFT_PLATE_KERNELS(Real)                                                                             \
   template <>                                                                                                \
   WEFT_MULTIVERSION double add_plate(const PlateStencils<Real>& plate, const Grid& grid,                     \
-                                     Components<const Real> x, Real factor, const Real* free,                \
-                                     Components<Real> y, RowRange rows, Real* work) {                        \
-    return add_any<Real>(plate, grid, x, factor, free, y, rows, work);                                       \
+                                     Components<const Real> x, const Real* free, Components<Real> y,         \
+                                     RowRange rows, Real* work) {                                            \
+    return add_any<Real>(plate, grid, x, free, y, rows, work);                                               \
+  }                                                                                                          \
+  template <>                                                                                                \
+  WEFT_MULTIVERSION void subtract_plate(const PlateStencils<Real>& plate, const Grid& grid,                  \
+                                        Components<const Real> x, const Real* free, Components<Real> y,      \
+                                        RowRange rows, Real* work) {                                         \
+    subtract_any<Real>(plate, grid, x, free, y, rows, work);                                                 \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION double relax_plate(                                                                      \

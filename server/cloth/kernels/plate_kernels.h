@@ -16,10 +16,15 @@ struct PlateStencils {
 /// Scalars of work space that the kernels below need.
 std::size_t plate_work_size(const Grid& grid);
 
-/// y += factor free (K x) on the rows; returns their part of x . (what was added).
+/// y += free (K x) on the rows; returns their part of x . (what was added).
 template <class Real>
-double add_plate(const PlateStencils<Real>& plate, const Grid& grid, Components<const Real> x, Real factor,
+double add_plate(const PlateStencils<Real>& plate, const Grid& grid, Components<const Real> x,
                  const Real* free, Components<Real> y, RowRange rows, Real* work);
+
+/// y -= free (K x) on the rows.
+template <class Real>
+void subtract_plate(const PlateStencils<Real>& plate, const Grid& grid, Components<const Real> x,
+                    const Real* free, Components<Real> y, RowRange rows, Real* work);
 
 /// The plate's part of a sweep of block Jacobi (link_kernels.h's relax) on the rows: out -= inverse (K x);
 /// returns their part of b . (what was added).

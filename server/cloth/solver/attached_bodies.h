@@ -43,6 +43,8 @@ class AttachedBodies {
   void take_changes();
   /// Of a body, beyond its move without springs, m.
   const Vec3& move(int body) const { return bodies_[static_cast<std::size_t>(body)].move; }
+  /// Of a body, that find_changes found, m.
+  const Vec3& change(int body) const { return bodies_[static_cast<std::size_t>(body)].change; }
 
  private:
   struct Body {

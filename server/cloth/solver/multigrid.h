@@ -6,6 +6,7 @@
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
+#include "cloth/solver/node_couplings.h"
 
 namespace weft {
 
@@ -18,13 +19,16 @@ struct GridLevel {
   Bands bands;
   kernels::LinkMatrix<Real, Links> matrix;
   std::optional<Plate<Real>> plate;  ///< part of the matrix, if there is one
+  bool cycles_plate = false;         ///< the plate is part of the cycle, too
   kernels::Blocks<Real> inverse;     ///< of the diagonal blocks, damped
   kernels::Components<Real> b, x, y;
 
   Real* diagonal() { return numbers_[0]; }
   Real* free() { return numbers_[1]; }
-  /// The matrix as block Jacobi sees it: with the plate's share of the diagonal.
+  /// The matrix as block Jacobi sees it: with the plate's share of the diagonal, if the plate is cycled.
   kernels::LinkMatrix<Real, Links> smoothed();
+  /// Decides whether the plate is cycled, by the diagonal.
+  void weigh_plate();
   /// With blocks in the diagonal, all zero, or without.
   void use_blocks(bool use);
 
@@ -36,8 +40,9 @@ struct GridLevel {
 /// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
-/// A plate may be part of A, on every level by its own rigidities. Bodies may hang on the nodes: they are
-/// part of A, but not of the preconditioner.
+/// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
+/// inertia outweighs it at every node. Bodies may hang on the nodes, and nodes on one another: that is part
+/// of A, but not of the preconditioner.
 template <class Real>
 class Multigrid {
  public:
@@ -51,6 +56,7 @@ class Multigrid {
   /// blocks. Zero at first.
   GridLevel<Real, kernels::SpringLinks<Real>>& finest() { return finest_; }
   AttachedBodies<Real>& bodies() { return bodies_; }
+  NodeCouplings<Real>& couplings() { return couplings_; }
   /// Builds the coarse matrices and all that a cycle needs.
   void prepare();
 
@@ -69,16 +75,13 @@ class Multigrid {
   void prepare_level(Fine& level);
   template <class Fine>
   void coarsen(Fine& fine, Coarse& coarse);
-  /// y += factor free (plate's matrix) x on the band's rows; returns x . (what was added).
-  template <class Links>
-  double add_plate(GridLevel<Real, Links>& level, kernels::Components<const Real> x, Real factor,
-                   kernels::Components<Real> y, kernels::RowRange rows, int band);
   template <class Links>
   double cycle(GridLevel<Real, Links>& level, std::size_t next, kernels::Components<const Real> b,
                kernels::Components<Real> z);
 
   GridLevel<Real, kernels::SpringLinks<Real>> finest_;
   AttachedBodies<Real> bodies_;
+  NodeCouplings<Real> couplings_;
   std::vector<Coarse> coarse_;  ///< fine to coarse
   std::optional<CoarseSolver<Real>> coarsest_;
   std::size_t work_size_;  ///< of a band

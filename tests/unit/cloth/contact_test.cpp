@@ -93,6 +93,28 @@ TYPED_TEST(Contacts, KeepsAVelocityThatAlreadyLeaves) {
   EXPECT_NEAR(sheet.position_at(4, 4).z(), 0.25, this->kRounding);
 }
 
+TYPED_TEST(Contacts, FrictionHoldsAPressedNodeWhereItIs) {
+  // At rest on a ball of 0.3 m, 30 degrees from its top, pressed 1 mm deep and pulled 0.4 mm along in every
+  // substep, less than 0.5 of the depth. Led back along the tangent plane at its deepest place it would climb
+  // by 0.4 mm x 1 mm / 0.3 m = 1.3 um in each, 1.3 mm in 1,000. Each substep may round.
+  constexpr int kSubsteps = 1000;
+  constexpr double kSeconds = 1e-3;
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  const Vec3 n(0.5, 0, std::sqrt(0.75)), down(std::sqrt(0.75), 0, -0.5), rest = 0.3 * n;
+  set(sheet.position, 4, 4, rest);
+  std::vector<Solid> balls{solid_ball({0, 0, 0}, 0.3)};
+  balls[0].friction = 0.5;
+  Contact<TypeParam> contact(sheet.grid());
+  for (int i = 0; i < kSubsteps; ++i) {
+    const Vec3 pulled = -1e-3 * n + 0.4e-3 * down;
+    set(sheet.velocity, 4, 4, pulled / kSeconds);
+    set(sheet.position, 4, 4, sheet.position_at(4, 4) + pulled);
+    ASSERT_EQ(contact.resolve(sheet, balls, {0, 1, kSeconds}), 1);
+    EXPECT_LT(sheet.velocity_at(4, 4).norm(), this->kRounding);
+  }
+  EXPECT_LT((sheet.position_at(4, 4) - rest).norm(), kSubsteps * this->kRounding / 8);
+}
+
 TYPED_TEST(Contacts, TheVelocityThatCountsIsRelativeToTheBall) {
   // A resting node before a ball that comes up at 2 m/s: 2 m/s into the ball, so it leaves with the ball.
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});

@@ -85,7 +85,7 @@ TEST(Plate, RowsInBandsGiveTheSameBits) {
   test::randomise(x, -1, 1, 2);
   std::vector<double> work(kernels::plate_work_size(grid));
   const auto add = [&](VectorField<double>& y, kernels::RowRange rows) {
-    return kernels::add_plate<double>(plate.stencils(), grid, kernels::components(std::as_const(x)), 2.0,
+    return kernels::add_plate<double>(plate.stencils(), grid, kernels::components(std::as_const(x)),
                                       free.row(0), kernels::components(y), rows, work.data());
   };
   const double product = add(whole, {0, 17});

@@ -179,6 +179,24 @@ TEST_F(Commands, WhoLeavesLetsGoAndAResetLetsAllGo) {
   EXPECT_EQ(command(GrabRelease{1}).at("code"), "not_found");
 }
 
+TEST_F(Commands, AllViewersAreToldOfPins) {
+  const json corners = {{{"u", {0.0, 0.0}}, {"v", {0.0, 0.0}}}, {{"u", {1.0, 1.0}}, {"v", {0.0, 0.0}}}};
+  EXPECT_EQ(reader.last("scene").at("cloths").at(0).at("pins"), corners);
+  command(ClothPin{0, 0.5, 1});
+  json pins = corners;
+  pins.push_back({{"u", {0.5, 0.5}}, {"v", {1.0, 1.0}}});
+  EXPECT_EQ(other.last("event", "cloth.pin").at("pins"), pins);
+  Reader late;
+  live.add_viewer(late.viewer, late.viewer->enter());
+  late.drain();
+  EXPECT_EQ(late.last("scene").at("cloths").at(0).at("pins"), pins);
+  command(ClothUnpin{0, 0.9, 0.1});
+  pins.erase(1);
+  EXPECT_EQ(other.last("event", "cloth.unpin").at("pins"), pins);
+  command(Reset{});
+  EXPECT_EQ(other.last("event", "reset").at("pins"), json::array({corners}));
+}
+
 TEST_F(Commands, The65thGrabAndThe257thPinAreRefused) {
   for (int i = 0; i < 64; ++i) ASSERT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("op"), "ok");
   EXPECT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("code"), "limit");

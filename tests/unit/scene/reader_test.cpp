@@ -158,7 +158,7 @@ TEST(Reader, PathsOfObstacles) {
 
 TEST(Reader, EffectsWindAndStepping) {
   const SimulationDescription simulation = read_good("everything").simulation;
-  ASSERT_EQ(simulation.effects.size(), 8u);
+  ASSERT_EQ(simulation.effects.size(), 9u);
   EXPECT_EQ(std::get<GravityEffect>(simulation.effects[0]).acceleration, Vec3(0, 0, -1.62));
   EXPECT_TRUE(std::holds_alternative<DampingEffect>(simulation.effects[1]));
   EXPECT_EQ(std::get<PaperWindEffect>(simulation.effects[2]).factor, 2);
@@ -169,7 +169,9 @@ TEST(Reader, EffectsWindAndStepping) {
   EXPECT_EQ(std::get<StrainDampingEffect>(simulation.effects[4]).time, 0.005);
   EXPECT_TRUE(std::holds_alternative<PlateBendingEffect>(simulation.effects[5]));
   EXPECT_TRUE(std::holds_alternative<StrainLimitEffect>(simulation.effects[6]));
-  EXPECT_EQ(std::get<InflationEffect>(simulation.effects[7]).pressure, 250);
+  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[7]).thickness, 0.003);
+  EXPECT_EQ(std::get<ClothContactEffect>(simulation.effects[7]).friction, 0.5);
+  EXPECT_EQ(std::get<InflationEffect>(simulation.effects[8]).pressure, 250);
   EXPECT_LT((simulation.wind.direction - Vec3(0.6, 0, -0.8)).norm(), 1e-15);  // 3, 4, 5
   EXPECT_EQ(simulation.wind.speed, 7);
   EXPECT_EQ(simulation.wind.gusts.intensity, 0.25);

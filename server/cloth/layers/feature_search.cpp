@@ -1,0 +1,203 @@
+#include "cloth/layers/feature_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// A cell's nodes: top left, top right, bottom left, bottom right. A cell owns some of its nodes and edges,
+/// so that each belongs to one cell: those of its top left corner, and at the border what is left over.
+constexpr std::array<std::array<std::size_t, 3>, 2> kTriangles{{{0, 2, 3}, {0, 3, 1}}};
+constexpr std::array<std::array<std::size_t, 2>, 5> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// A cell with its features' boxes.
+struct CellFeatures {
+  std::array<std::uint32_t, 4> node{};
+  bool last_row = false, last_col = false;
+  std::array<Bounds, 4> at{};  ///< of the nodes' ways
+  std::array<Bounds, 2> triangle{};
+  std::array<Bounds, 5> edge{};
+
+  bool owns_node(std::size_t i) const {
+    return i == 0 || (i == 1 && last_col) || (i == 2 && last_row) || (i == 3 && last_row && last_col);
+  }
+  bool owns_edge(std::size_t i) const { return i < 3 || (i == 3 ? last_col : last_row); }
+};
+
+CellFeatures features_of(const Grid& grid, std::uint32_t first, Cell cell, const std::vector<Vec3>& start,
+                         const std::vector<Vec3>& end) {
+  CellFeatures features;
+  const auto top = first + static_cast<std::uint32_t>(grid.index(cell.row, cell.col));
+  const auto bottom = top + static_cast<std::uint32_t>(grid.stride);
+  features.node = {top, top + 1, bottom, bottom + 1};
+  features.last_row = cell.row == grid.rows - 2;
+  features.last_col = cell.col == grid.cols - 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    features.at[i].extend(start[features.node[i]]);
+    features.at[i].extend(end[features.node[i]]);
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    features.edge[i] = features.at[kEdges[i][0]];
+    features.edge[i].extend(features.at[kEdges[i][1]]);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    features.triangle[i] = features.edge[2];
+    features.triangle[i].extend(features.at[kTriangles[i][i == 0 ? 1 : 2]]);
+  }
+  return features;
+}
+
+template <class Visit>
+void node_triangle_pairs(const CellFeatures& a, const CellFeatures& b, double margin, Visit visit) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!a.owns_node(i)) continue;
+    for (std::size_t t = 0; t < 2; ++t) {
+      if (!a.at[i].near(b.triangle[t], margin)) continue;
+      const std::uint32_t n = a.node[i], p = b.node[kTriangles[t][0]], q = b.node[kTriangles[t][1]],
+                          r = b.node[kTriangles[t][2]];
+      if (n != p && n != q && n != r) visit({FeaturePair::Kind::node_triangle, {n, p, q, r}});
+    }
+  }
+}
+
+template <class Visit>
+void edge_pairs(const CellFeatures& a, const CellFeatures& b, double margin, Visit visit) {
+  const bool same = a.node == b.node;
+  for (std::size_t i = 0; i < 5; ++i) {
+    if (!a.owns_edge(i)) continue;
+    const std::uint32_t p = a.node[kEdges[i][0]], q = a.node[kEdges[i][1]];
+    for (std::size_t j = same ? i + 1 : 0; j < 5; ++j) {
+      if (!b.owns_edge(j) || !a.edge[i].near(b.edge[j], margin)) continue;
+      const std::uint32_t r = b.node[kEdges[j][0]], s = b.node[kEdges[j][1]];
+      if (p != r && p != s && q != r && q != s) visit({FeaturePair::Kind::edge_edge, {p, q, r, s}});
+    }
+  }
+}
+
+/// Six times the volume of the tetrahedron.
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
+/// The edge from p to q passes through the triangle.
+bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if ((volume(a, b, c, p) > 0) == (volume(a, b, c, q) > 0)) return false;
+  const bool ab = volume(p, q, a, b) > 0, bc = volume(p, q, b, c) > 0, ca = volume(p, q, c, a) > 0;
+  return ab == bc && bc == ca;
+}
+
+void mark_pierced(const CellFeatures& a, const CellFeatures& b, const std::vector<Vec3>& x,
+                  std::vector<char>& tangled) {
+  for (const auto& edge : kEdges) {
+    const std::uint32_t p = a.node[edge[0]], q = a.node[edge[1]];
+    for (const auto& triangle : kTriangles) {
+      const std::array<std::uint32_t, 3> t{b.node[triangle[0]], b.node[triangle[1]], b.node[triangle[2]]};
+      const auto shared = [&](std::uint32_t n) { return n == p || n == q; };
+      if (std::any_of(t.begin(), t.end(), shared)) continue;
+      if (!pierces(x[p], x[q], x[t[0]], x[t[1]], x[t[2]])) continue;
+      for (const std::uint32_t n : {p, q, t[0], t[1], t[2]}) tangled[n] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+void FeatureSearch::set_grids(const std::vector<Grid>& grids) {
+  sheets_.clear();
+  std::uint32_t first = 0;
+  for (const Grid& grid : grids) {
+    sheets_.emplace_back(grid, first);
+    first += static_cast<std::uint32_t>(grid.size());
+  }
+}
+
+template <class Visit>
+void FeatureSearch::for_each_sheets(double margin, Visit visit) {
+  cell_pairs_ = 0;
+  for (std::size_t i = 0; i < sheets_.size(); ++i) {
+    for (std::size_t j = i; j < sheets_.size(); ++j) {
+      cells_.clear();
+      if (i == j) {
+        sheets_[i].tree.find_own_pairs(margin, cells_);
+      } else {
+        sheets_[i].tree.find_pairs(sheets_[j].tree, margin, cells_);
+      }
+      cell_pairs_ += cells_.size();
+      visit(sheets_[i], sheets_[j]);
+    }
+  }
+}
+
+Vec3 FeatureSearch::common_motion(const LayerNodes& nodes) {
+  Vec3 common(0, 0, 0);
+  double count = 0;
+  for (std::size_t i = 0; i < nodes.start.size(); ++i) {
+    if (nodes.inverse_mass[i] == 0) continue;
+    common += nodes.end[i] - nodes.start[i];
+    ++count;
+  }
+  return count > 0 ? Vec3(common / count) : common;
+}
+
+const std::vector<FeaturePair>& FeatureSearch::found(const LayerNodes& nodes, double margin, double again) {
+  // Each of two features may have come nearer by half of the room.
+  const double room = (margin_ - margin) / 2;
+  const Vec3 common = common_motion(nodes);
+  bool covered = room > 0;
+  for (std::size_t i = 0; covered && i < end_.size(); ++i) {
+    covered = (nodes.end[i] - common - end_[i]).squaredNorm() <= room * room;
+  }
+  return covered ? pairs_ : find(nodes, again);
+}
+
+const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, double margin) {
+  ++searches_;
+  margin_ = margin;
+  const Vec3 common = common_motion(nodes);
+  end_.resize(nodes.end.size());
+  std::transform(nodes.end.begin(), nodes.end.end(), end_.begin(), [&](const Vec3& x) { return x - common; });
+  for (Sheet& sheet : sheets_) sheet.tree.refit(nodes.start.data() + sheet.first, end_.data() + sheet.first);
+
+  pairs_.clear();
+  const auto add = [&](FeaturePair pair) {
+    const auto tangled = [&](std::uint32_t n) { return nodes.tangled[n] != 0; };
+    if (std::any_of(pair.node.begin(), pair.node.end(), tangled)) return;
+    const FourPoints start = points_of(pair, nodes.start);
+    FourPoints move = points_of(pair, end_);
+    for (std::size_t i = 0; i < 4; ++i) move[i] -= start[i];
+    pair.distance = nearness(pair.kind, start).apart.norm();
+    if (pair.distance <= margin + reach(pair.kind, move)) pairs_.push_back(pair);
+  };
+  for_each_sheets(margin, [&](const Sheet& one, const Sheet& other) {
+    Cell last{-1, -1};
+    CellFeatures a;
+    for (const auto& [first, second] : cells_) {
+      if (first.row != last.row || first.col != last.col) {
+        a = features_of(one.tree.grid(), one.first, first, nodes.start, end_);
+        last = first;
+      }
+      const CellFeatures b = features_of(other.tree.grid(), other.first, second, nodes.start, end_);
+      node_triangle_pairs(a, b, margin, add);
+      if (a.node != b.node) node_triangle_pairs(b, a, margin, add);
+      edge_pairs(a, b, margin, add);
+    }
+  });
+  return pairs_;
+}
+
+void FeatureSearch::find_tangles(const LayerNodes& nodes, std::vector<char>& tangled) {
+  for (Sheet& sheet : sheets_) {
+    sheet.tree.refit(nodes.start.data() + sheet.first, nodes.start.data() + sheet.first);
+  }
+  for_each_sheets(0, [&](const Sheet& one, const Sheet& other) {
+    for (const auto& [first, second] : cells_) {
+      const CellFeatures a = features_of(one.tree.grid(), one.first, first, nodes.start, nodes.start);
+      const CellFeatures b = features_of(other.tree.grid(), other.first, second, nodes.start, nodes.start);
+      mark_pierced(a, b, nodes.start, tangled);
+      mark_pierced(b, a, nodes.start, tangled);
+    }
+  });
+}
+
+}  // namespace weft

@@ -1,0 +1,46 @@
+#pragma once
+#include "cloth/layers/layer_nodes.h"
+#include "cloth/layers/patch_tree.h"
+
+namespace weft {
+
+/// Finds the features that come near each other on their ways from LayerNodes::start to ::end, of one cloth
+/// and of different ones. A cell is two triangles, as drawn: its diagonal is the one from its top left to its
+/// bottom right node. What shares a node is no pair. The order of the pairs follows from the grids alone.
+class FeatureSearch {
+ public:
+  /// Cloths of these grids.
+  void set_grids(const std::vector<Grid>& grids);
+
+  /// All pairs that come as near as `margin`, m, and some more. Those of tangled nodes are left out. Valid
+  /// until the next call.
+  const std::vector<FeaturePair>& find(const LayerNodes& nodes, double margin);
+  /// What was found last, for the same starts, with all that come as near as `margin`: found again if the
+  /// ends are others by now than can be told from it. `again` is the margin then.
+  const std::vector<FeaturePair>& found(const LayerNodes& nodes, double margin, double again);
+  /// The pairs of cells that the last search went through, and how many searches there were.
+  std::size_t cell_pairs() const { return cell_pairs_; }
+  std::size_t searches() const { return searches_; }
+  /// Adds to `tangled` the nodes of triangles that edges pass through at `start`.
+  void find_tangles(const LayerNodes& nodes, std::vector<char>& tangled);
+
+ private:
+  struct Sheet {
+    Sheet(const Grid& grid, std::uint32_t first_node) : tree(grid), first(first_node) {}
+    PatchTree tree;
+    std::uint32_t first;
+  };
+  static Vec3 common_motion(const LayerNodes& nodes);
+  /// Calls visit(sheet a, sheet b, cell pairs) for all that come near.
+  template <class Visit>
+  void for_each_sheets(double margin, Visit visit);
+
+  std::vector<Sheet> sheets_;
+  std::vector<Vec3> end_;  ///< as seen from the common motion
+  double margin_ = 0;      ///< of the last search
+  std::vector<std::array<Cell, 2>> cells_;
+  std::vector<FeaturePair> pairs_;
+  std::size_t cell_pairs_ = 0, searches_ = 0;
+};
+
+}  // namespace weft

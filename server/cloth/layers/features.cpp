@@ -1,0 +1,102 @@
+#include "cloth/layers/features.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Steps of conservative advancement after which features that creep up on each other count as touching.
+constexpr int kMostSteps = 64;
+/// What features that are very near keep of their distance.
+constexpr double kLeastPart = 0.9;
+
+Nearness weighted(const std::array<double, 4>& weight, const FourPoints& p) {
+  return {weight, weight[0] * p[0] + weight[1] * p[1] + weight[2] * p[2] + weight[3] * p[3]};
+}
+
+/// Barycentric coordinates of the triangle's point nearest to p[0].
+Nearness node_triangle(const FourPoints& p) {
+  const Vec3 ab = p[2] - p[1], ac = p[3] - p[1], ap = p[0] - p[1];
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return weighted({1, -1, 0, 0}, p);
+  const Vec3 bp = p[0] - p[2];
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return weighted({1, 0, -1, 0}, p);
+  const Vec3 cp = p[0] - p[3];
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return weighted({1, 0, 0, -1}, p);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double v = d1 / (d1 - d3);
+    return weighted({1, v - 1, -v, 0}, p);
+  }
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double w = d2 / (d2 - d6);
+    return weighted({1, w - 1, 0, -w}, p);
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return weighted({1, 0, w - 1, -w}, p);
+  }
+  const double sum = va + vb + vc;
+  const double v = vb / sum, w = vc / sum;
+  return weighted({1, v + w - 1, -v, -w}, p);
+}
+
+double share(double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; }
+
+Nearness edge_edge(const FourPoints& p) {
+  const Vec3 d1 = p[1] - p[0], d2 = p[3] - p[2], r = p[0] - p[2];
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), b = d1.dot(d2), c = d1.dot(r), f = d2.dot(r);
+  double s = share(b * f - c * e, a * e - b * b);
+  double t = e > 0 ? (b * s + f) / e : 0.0;
+  if (t < 0) {
+    t = 0;
+    s = share(-c, a);
+  } else if (t > 1) {
+    t = 1;
+    s = share(b - c, a);
+  } else if (!(e > 0)) {
+    s = share(-c, a);
+  }
+  return weighted({1 - s, s, t - 1, -t}, p);
+}
+
+double longest(const Vec3& a, const Vec3& b) { return std::sqrt(std::max(a.squaredNorm(), b.squaredNorm())); }
+
+}  // namespace
+
+Nearness nearness(FeaturePair::Kind kind, const FourPoints& points) {
+  return kind == FeaturePair::Kind::node_triangle ? node_triangle(points) : edge_edge(points);
+}
+
+double reach(FeaturePair::Kind kind, const FourPoints& move) {
+  const Vec3 common = (move[0] + move[1] + move[2] + move[3]) / 4;
+  const FourPoints way{move[0] - common, move[1] - common, move[2] - common, move[3] - common};
+  return kind == FeaturePair::Kind::node_triangle
+             ? way[0].norm() + std::max(longest(way[1], way[2]), way[3].norm())
+             : longest(way[0], way[1]) + longest(way[2], way[3]);
+}
+
+std::optional<double> first_contact(FeaturePair::Kind kind, double distance, const FourPoints& start,
+                                    const FourPoints& move, double gap) {
+  const double nearer = reach(kind, move);
+  const double least = std::min(gap, kLeastPart * distance);
+  const double near = std::min(1.5 * gap, (1 + kLeastPart) / 2 * distance);
+  if (distance - nearer > near) return std::nullopt;
+  double time = 0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    time += (distance - least) / nearer * 0.9;
+    if (time > 1) return std::nullopt;
+    FourPoints points;
+    for (std::size_t i = 0; i < 4; ++i) points[i] = start[i] + time * move[i];
+    distance = nearness(kind, points).apart.norm();
+    if (distance <= near) return time;
+  }
+  return time;
+}
+
+}  // namespace weft

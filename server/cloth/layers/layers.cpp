@@ -1,0 +1,223 @@
+#include "cloth/layers/layers.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "cloth/solver/node_vector.h"
+
+namespace weft {
+namespace {
+
+/// Crossing edges are held apart by this part of the thickness: between layers that lie flat on each other
+/// the nodes alone do it.
+constexpr double kEdgePart = 0.5;
+/// Nearer features may have passed through each other by rounding, m.
+constexpr double kTouching = 1e-6;
+/// The net keeps features apart by this part.
+constexpr double kNetPart = 0.1;
+
+/// What moves faster than this rouses a sleeping cloth that it touches, m/s.
+constexpr double kRousing = 0.01;
+
+template <class Real>
+bool stands_still(const Cloth<Real>& cloth) {
+  return cloth.asleep() || cloth.frozen();
+}
+
+double half_a_cell(const ClothDescription& cloth, const Grid& grid) {
+  return std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1)) / 2;
+}
+
+}  // namespace
+
+template <class Real>
+void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
+  std::vector<Grid> grids;
+  for (const Cloth<Real>& cloth : cloths) grids.push_back(cloth.particles().grid());
+  if (grids == grids_) return;
+  grids_ = grids;
+  search_.set_grids(grids);
+  nodes_ = {};
+  gaps_.clear();
+  contacts_.clear();
+  double least = parameters_.thickness;
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    nodes_.first.push_back(count);
+    count += static_cast<std::uint32_t>(grids[i].size());
+    gaps_.push_back(std::min(parameters_.thickness, half_a_cell(cloths[i].description(), grids[i])));
+    least = std::min(least, gaps_.back());
+  }
+  nodes_.first.push_back(count);
+  nodes_.start.assign(count, Vec3::Zero());
+  nodes_.end = nodes_.velocity = nodes_.start;
+  nodes_.inverse_mass.assign(count, 0.0);
+  nodes_.tangled.assign(count, 0);
+  net_ = CollisionNet(kNetPart * least);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    contacts_.push_back(std::make_unique<LayerContacts<Real>>(
+        nodes_, i, LayerParameters{parameters_.thickness, parameters_.friction}));
+    cloths[i].set_layers(contacts_.back().get());
+  }
+  may_be_tangled_ = true;
+  found_ = false;
+}
+
+template <class Real>
+void Layers<Real>::read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const {
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const auto x = kernels::components(cloths[k].particles().position);
+    const Grid& grid = grids_[k];
+    for (int r = 0; r < grid.rows; ++r) {
+      for (std::size_t i = grid.index(r, 0), end = grid.index(r, grid.cols); i < end; ++i) {
+        positions[nodes_.first[k] + i] = at(x, i);
+      }
+    }
+  }
+}
+
+template <class Real>
+void Layers<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const bool still = stands_still(cloths[k]);
+    const auto& values = cloths[k].particles().inverse_mass.values();
+    std::transform(values.begin(), values.end(), nodes_.inverse_mass.begin() + nodes_.first[k],
+                   [&](Real value) { return still ? 0.0 : double(value); });
+  }
+}
+
+template <class Real>
+void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
+  lay_out(cloths);
+  // While all stand still the pairs of the last step are right, should one wake in this one.
+  if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
+  found_ = true;
+  read(cloths, nodes_.start);
+  read_masses(cloths);
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const Particles<Real>& particles = cloths[k].particles();
+    const auto v = kernels::components(particles.velocity);
+    const bool still = stands_still(cloths[k]);
+    for (std::size_t i = 0; i < grids_[k].size(); ++i) {
+      const std::size_t n = nodes_.first[k] + i;
+      nodes_.velocity[n] = still || nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
+      nodes_.end[n] = nodes_.start[n] + dt * nodes_.velocity[n];
+    }
+  }
+  if (may_be_tangled_) find_tangles();
+  share_pairs(cloths, dt);
+}
+
+template <class Real>
+void Layers<Real>::find_tangles() {
+  nodes_.tangled.assign(nodes_.start.size(), 0);
+  search_.find_tangles(nodes_, nodes_.tangled);
+  tangled_ = static_cast<int>(std::count(nodes_.tangled.begin(), nodes_.tangled.end(), 1));
+  may_be_tangled_ = tangled_ > 0;
+}
+
+template <class Real>
+std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
+  return static_cast<std::size_t>(std::upper_bound(nodes_.first.begin(), nodes_.first.end(), node) -
+                                  nodes_.first.begin()) -
+         1;
+}
+
+template <class Real>
+Vec3 Layers<Real>::sheet_normal(std::uint32_t node) const {
+  const std::size_t sheet = sheet_of(node);
+  const Grid& grid = grids_[sheet];
+  const auto i = static_cast<int>(node - nodes_.first[sheet]);
+  const int r = i / grid.stride, c = i % grid.stride;
+  const auto x = [&](int row, int col) -> const Vec3& {
+    return nodes_.start[nodes_.first[sheet] +
+                        grid.index(std::clamp(row, 0, grid.rows - 1), std::clamp(col, 0, grid.cols - 1))];
+  };
+  return (x(r + 1, c) - x(r - 1, c)).cross(x(r, c + 1) - x(r, c - 1));
+}
+
+template <class Real>
+void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
+  const double drop = standard_gravity().norm() * dt * dt;
+  std::vector<LayerPair> edges;
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    LayerPair pair;
+  };
+  std::vector<std::vector<LayerPair>> shares(cloths.size());
+  std::vector<int> nearest(2 * nodes_.start.size(), -1);
+  std::vector<Nearest> found;
+  for (const FeaturePair& features : search_.find(nodes_, parameters_.thickness + drop)) {
+    LayerPair pair;
+    pair.features = features;
+    pair.near = nearness(features.kind, points_of(features, nodes_.start));
+    double distance = features.distance;
+    if (distance < kTouching) may_be_tangled_ = true;
+    if (distance == 0) continue;
+    const std::size_t one = sheet_of(features.node[0]), other = sheet_of(features.node[2]);
+    pair.normal = pair.near.apart / distance;
+    pair.gap = std::min(gaps_[one], gaps_[other]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      distance += dt * pair.near.weight[i] * pair.normal.dot(nodes_.velocity[features.node[i]]);
+    }
+    const bool node_on_triangle = features.kind == FeaturePair::Kind::node_triangle;
+    if (!node_on_triangle) pair.gap *= kEdgePart;
+    if (distance - drop > pair.gap) continue;
+    if (!node_on_triangle) {
+      edges.push_back(pair);
+      continue;
+    }
+    pair.side = sheet_normal(features.node[0]).dot(pair.normal) > 0 ? 1 : 0;
+    int& slot = nearest[2 * features.node[0] + static_cast<std::size_t>(pair.side)];
+    if (slot < 0) {
+      slot = static_cast<int>(found.size());
+      found.push_back({distance, pair});
+    } else if (distance < found[static_cast<std::size_t>(slot)].distance) {
+      found[static_cast<std::size_t>(slot)] = {distance, pair};
+    }
+  }
+  const auto share = [&](const LayerPair& pair) {
+    const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
+    shares[one].push_back(pair);
+    if (other == one) return;
+    shares[other].push_back(pair);
+    const auto moves = [&](std::uint32_t n) { return nodes_.velocity[n].norm() > kRousing; };
+    if (std::none_of(pair.features.node.begin(), pair.features.node.end(), moves)) return;
+    for (const std::size_t sheet : {one, other}) {
+      if (cloths[sheet].asleep()) cloths[sheet].wake();
+    }
+  };
+  for (const Nearest& n : found) share(n.pair);
+  for (const LayerPair& pair : edges) share(pair);
+  for (std::size_t i = 0; i < cloths.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
+}
+
+template <class Real>
+void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
+  net_report_ = {};
+  if (std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
+  read(cloths, nodes_.end);
+  read_masses(cloths);
+  net_report_ = net_.apply(search_, nodes_);
+  if (!net_report_.changed()) return;
+  const std::vector<Vec3>& untouched = net_.untouched_end();
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    bool changed = false;
+    for (std::size_t i = 0; i < grids_[k].size(); ++i) {
+      const std::size_t n = nodes_.first[k] + i;
+      if (nodes_.end[n] == untouched[n]) continue;
+      Particles<Real>& particles = cloths[k].particles();
+      const Vec3 moved = nodes_.end[n] - untouched[n];
+      add(kernels::components(particles.position), i, moved);
+      if (nodes_.inverse_mass[n] > 0) add(kernels::components(particles.velocity), i, moved / dt);
+      contacts_[k]->struck().push_back(i);
+      changed = true;
+    }
+    if (changed) cloths[k].moved_from_outside();
+  }
+}
+
+template class Layers<float>;
+template class Layers<double>;
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+#pragma once
+#include <memory>
+
+#include "cloth/cloth.h"
+#include "cloth/layers/collision_net.h"
+#include "cloth/layers/layer_contacts.h"
+
+namespace weft {
+
+/// Contact of a scene's cloths with themselves and with one another (ClothContactEffect), around their steps.
+///
+/// Before them the pairs are found that lie or will lie nearer than the thickness; each cloth takes them into
+/// its own step (LayerContacts), so that cloths are still stepped side by side. After them all the net
+/// (CollisionNet) stops what they missed, over all cloths together and in one order, whatever the threads.
+///
+/// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
+/// sheet would push each other.
+///
+/// Cloth may begin entangled, and split and merge may make it so. Nodes of triangles that an edge passes
+/// through are left alone, by contact and net, until none does; what is not entangled does not become so.
+template <class Real>
+class Layers {
+ public:
+  explicit Layers(const ClothContactEffect& parameters) : parameters_(parameters) {}
+
+  /// Before the cloths' step of dt seconds.
+  void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
+  /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth.
+  void end_step(std::vector<Cloth<Real>>& cloths, double dt);
+
+  /// What the net had to do in the last step.
+  const NetReport& net_report() const { return net_report_; }
+  /// Nodes that are left alone, as the last step began.
+  int tangled_nodes() const { return tangled_; }
+
+ private:
+  void lay_out(std::vector<Cloth<Real>>& cloths);
+  void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
+  void read_masses(const std::vector<Cloth<Real>>& cloths);
+  void find_tangles();
+  void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  std::size_t sheet_of(std::uint32_t node) const;
+  Vec3 sheet_normal(std::uint32_t node) const;
+
+  ClothContactEffect parameters_;
+  std::vector<Grid> grids_;
+  std::vector<double> gaps_;  ///< of each cloth, m
+  LayerNodes nodes_;
+  FeatureSearch search_;
+  CollisionNet net_{0};
+  std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
+  bool found_ = false;  ///< pairs, at these levels
+  bool may_be_tangled_ = true;
+  int tangled_ = 0;
+  NetReport net_report_;
+};
+
+extern template class Layers<float>;
+extern template class Layers<double>;
+
+}  // namespace weft

@@ -1,0 +1,64 @@
+"""What a scene does not call for costs it nothing: it takes as many instructions a step, and as many bytes, as in a program that does
+not contain it at all.
+
+For each effect a scene with all others is stepped at level 5 by two programs, one linked with everything and one without the effect's
+own object files (CMakeLists.txt), under callgrind.
+"""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAMS = dict(program.split("=") for program in os.environ["WEFT_STEP_PROGRAMS"].rstrip(",").split(","))
+FRAMES = 3
+
+
+def scene(absent):
+    """A hung sheet with everything but what is absent."""
+    effects = [{"type": "gravity"}, {"type": "damping"}, {"type": "paper_wind"}, {"type": "aerodynamics"},
+               {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"}, {"type": "cloth_contact"}, {"type": "inflation"}]
+    wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5}}
+    balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}]
+    return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],
+            "wind": {name: value for name, value in wind.items() if name != absent},
+            "colliders": [] if absent == "contact" else balls,
+            "cloths": [{"size": [1, 1], "pins": ["top"], "levels": {"min": 5, "max": 5}}]}
+
+
+def measure(program, absent, folder):
+    """Instructions within Simulation::step, and bytes asked for."""
+    file, out = folder / "scene.json", folder / "callgrind.out"
+    file.write_text(json.dumps(scene(absent)))
+    run = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=weft::Simulation<float>::step()",
+                          f"--callgrind-out-file={out}", program, str(file), str(FRAMES)], check=True, capture_output=True, text=True)
+    return int(re.search(r"Collected : (\d+)", run.stderr)[1]), int(run.stdout)
+
+
+class AbsentBuilds(unittest.TestCase):
+    def test_a_program_without_an_effect_takes_as_many_instructions_and_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for absent in sorted(set(PROGRAMS) - {"all"}):
+                with self.subTest(absent=absent):
+                    instructions, size = measure(PROGRAMS[absent], absent, pathlib.Path(folder))
+                    with_it, with_it_size = measure(PROGRAMS["all"], absent, pathlib.Path(folder))
+                    print(f"{absent:15} {instructions / FRAMES:12.0f} instructions a step without it, {with_it / instructions:.5f} times in "
+                          f"the whole program; {size} bytes, {with_it_size - size} more")
+                    self.assertGreater(instructions, 1e6 * FRAMES)
+                    self.assertAlmostEqual(with_it / instructions, 1, delta=1e-3)
+                    self.assertEqual(with_it_size, size)
+
+    def test_a_program_without_an_effect_cannot_simulate_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "scene.json"
+            file.write_text(json.dumps(scene(None)))
+            for absent in sorted(set(PROGRAMS) - {"all", "grab"}):
+                with self.subTest(absent=absent):
+                    run = subprocess.run([PROGRAMS[absent], str(file), "1"], capture_output=True, check=False)
+                    self.assertLess(run.returncode, 0)  # ended by a signal
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,70 @@
+#pragma once
+/// Scenes in which cloth meets cloth.
+#include <numbers>
+
+#include "cloth/simulation.h"
+
+namespace weft::test {
+
+inline PoseWaypoint turned(double time, const Vec3& position, double turns) {
+  return {time, {position, Quaternion(Eigen::AngleAxisd(2 * std::numbers::pi * turns, Vec3::UnitY()))}};
+}
+
+inline SimulationDescription cloth_scene(const Vec2& size, int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene;
+  scene.integrator = stepping;
+  scene.effects = {GravityEffect{}, ClothContactEffect{}};
+  scene.sleep_speed = 0;
+  ClothDescription cloth;
+  cloth.size = size;
+  cloth.min_level = cloth.max_level = cloth.initial_level = level;
+  scene.cloths = {cloth};
+  return scene;
+}
+
+inline ObstacleDescription floor_at(double height) {
+  ObstacleDescription plane{PlaneDescription{}, {0, height, 0}};
+  plane.friction = 0.5;
+  return plane;
+}
+
+/// A square of 1 m that stands on its edge and falls in a heap.
+inline SimulationDescription dropped_on_edge(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1, 1}, level, stepping);
+  scene.cloths[0].position = {0, 0.55, 0};
+  scene.cloths[0].perturbation = 0.002;
+  scene.obstacles = {floor_at(0)};
+  return scene;
+}
+
+/// A strip held above and below, wrung by four turns in 4 s while its ends approach.
+inline SimulationDescription wrung(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({0.3, 1}, level, stepping);
+  ObstacleDescription hand{BoxDescription{{0.01, 0.01, 0.01}}, {0, -2, 0}};
+  for (int quarter = 0; quarter <= 16; ++quarter) {
+    hand.path.push_back(turned(0.25 * quarter, {0, -2 + 0.5 * quarter / 16, 0}, quarter / 4.0));
+  }
+  scene.obstacles = {hand};
+  scene.cloths[0].pins = {PinRegion{0, 1, 0, 0}, PinRegion{0, 1, 1, 1}};
+  scene.cloths[0].pins[1].obstacle = 0;
+  return scene;
+}
+
+/// A cloth that falls over a ball on the floor and is pulled off it by its hem.
+inline SimulationDescription pulled_off(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1.2, 1.2}, level, stepping);
+  scene.cloths[0].position = {0, 0.62, 0};
+  scene.cloths[0].orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  PinRegion hem{1, 1, 0.4, 0.6};
+  hem.path = {{0, {0, 0, 0}}, {0.5, {-0.2, -0.55, 0}}, {0.8, {-0.2, -0.55, 0}}, {2, {1.4, -0.55, 0}}};
+  scene.cloths[0].pins = {hem};
+  scene.obstacles = {floor_at(0)};
+  BallDescription ball;
+  ball.position = {0, 0.3, 0};
+  ball.radius = 0.3;
+  ball.friction = 0.3;
+  scene.balls = {ball};
+  return scene;
+}
+
+}  // namespace weft::test
