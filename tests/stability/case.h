@@ -101,6 +101,7 @@ std::vector<Case> shape_cases();     ///< hopeless shapes and shocks: S6, S7, S1
 std::vector<Case> ball_cases();      ///< S8, S10, S20
 std::vector<Case> level_cases();     ///< S11
 std::vector<Case> long_cases();      ///< S14 to S16
+std::vector<Case> mesh_cases();      ///< S41
 std::vector<Case> all_cases();
 
 }  // namespace weft::stability
