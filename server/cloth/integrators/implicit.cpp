@@ -90,6 +90,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       contacts.clear();
       state_->system.bodies().clear();
     }
+    surroundings_ = {contact, &solids, part};
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
@@ -258,11 +259,25 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool found = changed.taken || decrease <= kMissedShare * s.scale;
     report.found = report.found || (solved.finite && found);
     const bool pulled = s.contacts.release_pulling(s.move, s.system.bodies()) > solved.target;
-    if (report.brought_in <= 0 && !pulled &&
-        (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale)))
-      break;
+    const bool done = report.brought_in <= 0 && !pulled &&
+                      (changed.error <= solved.target || (left <= 1 && changed.error <= kRough * s.scale));
+    if (done && !hold_inside(particles, *forces.springs, solved.target)) break;
   }
   return report;
+}
+
+template <class Real>
+bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs<Real>& springs,
+                                 double missed) {
+  const auto& [contact, solids, part] = surroundings_;
+  if (contact == nullptr) return false;
+  State& s = *state_;
+  if (!s.contacts.hold_inside(contact->inside(particles, *solids, part), particles, *solids, s.move,
+                              springs.node_stiffness(), missed))
+    return false;
+  s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  begin_formula(s.h);
+  return true;
 }
 
 template <class Real>

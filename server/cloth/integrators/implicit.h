@@ -15,8 +15,8 @@ namespace weft {
 ///
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
-/// of the motion's energy, if a contact's constraint pulled, or if the step brings in energy, some further
-/// ones are made; if it still brings in energy, the step is taken back and made again by backward Euler with
+/// of the motion's energy, if a contact's constraint pulled, if nodes are inside a solid that none holds, or if
+/// the step brings in energy, some further ones are made; if it still brings in energy, the step is taken back and made again by backward Euler with
 /// a line search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization,
 /// 2006, chapter 3). Not searched at once, as a halved change does not keep the momentum.
 ///
@@ -87,6 +87,8 @@ class Implicit final : public Integrator<Real> {
   void begin_formula(double h);
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
+  bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   ChangeReport whole_change(const Springs<Real>& springs, double decrease);
   ChangeReport searched_change(const Springs<Real>& springs, double decrease);
   void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
@@ -95,6 +97,12 @@ class Implicit final : public Integrator<Real> {
   ImplicitParameters parameters_;
   bool second_order_;
   std::optional<State> state_;
+  struct Surroundings {
+    Contact<Real>* contact = nullptr;  ///< or none
+    const std::vector<Solid>* solids = nullptr;
+    Substep substep;
+  };
+  Surroundings surroundings_;  ///< in the substep in hand
 };
 
 extern template class Implicit<float>;
