@@ -15,10 +15,11 @@ namespace weft {
 ///
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
-/// of the motion's energy, if a contact's constraint pulled, if nodes are inside a solid that none holds, or if
-/// the step brings in energy, some further ones are made; if it still brings in energy, the step is taken back and made again by backward Euler with
-/// a line search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization,
-/// 2006, chapter 3). Not searched at once, as a halved change does not keep the momentum.
+/// of the motion's energy, if a contact's constraint pulled, if nodes are inside a solid that none holds, or
+/// if the step brings in energy, some further ones are made; if it still brings in energy, the step is taken
+/// back and made again by backward Euler with a line search: each change is halved until it brings in none
+/// (Nocedal and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a halved change
+/// does not keep the momentum.
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
