@@ -5,10 +5,12 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "cloth/clock.h"
 #include "cloth/random.h"
 #include "cloth/refine.h"
+#include "cloth/settle.h"
 
 namespace weft {
 namespace {
@@ -61,6 +63,11 @@ void perturb(const ClothDescription& description, std::uint64_t seed, Particles<
       set(particles.position, r, c, particles.position_at(r, c) + offset * normal);
     }
   });
+}
+
+bool is_implicit(const IntegratorDescription& integrator) {
+  return std::holds_alternative<BackwardEulerDescription>(integrator) ||
+         std::holds_alternative<Bdf2Description>(integrator);
 }
 
 }  // namespace
@@ -133,6 +140,9 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
+  // The paper's own rules change levels as the paper does, an implicit step finds its balance by itself.
+  unsettled_ = unsettled_ || (changes && !is_implicit(guard_.method()) &&
+                              description_.discretization == Discretization::continuum);
   return changes;
 }
 
@@ -271,6 +281,9 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
+  if (std::exchange(unsettled_, false)) {
+    settle(particles_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(), solids, dt);
+  }
   for (;;) {
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);

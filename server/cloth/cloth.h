@@ -34,6 +34,7 @@ class Cloth {
   /// Asks for a level, clamped to the cloth's own limits; it is reached before the next step.
   void request_level(int level);
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
+  /// The next advance() then settles the cloth first, unless it is implicit (settle.h).
   bool apply_pending_level();
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
@@ -103,6 +104,7 @@ class Cloth {
   double total_mass_ = 0;
   int level_ = 0;
   std::optional<int> pending_level_;
+  bool unsettled_ = false;  ///< to be settled before the next step
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;             ///< s, at the end of the last step that was made

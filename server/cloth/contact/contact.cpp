@@ -110,6 +110,10 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
                              {moving.move.x(), moving.move.y(), moving.move.z()}, sphere_of(placed, *sphere));
 }
 
+bool all_yield(const std::vector<Solid>& solids) {
+  return std::all_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); });
+}
+
 }  // namespace
 
 template <class Real>
@@ -142,7 +146,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 move = way.move(particles.position_at(row, col), particles.grid().index(row, col));
-        NodeContact<Real> node({particles, rounded_off}, row, col, move, substep.seconds);
+        NodeContact<Real> node({particles, rounded_off, start != nullptr}, row, col, move);
         if (node.resolve(moving, touches_)) ++in_contact;
       });
   for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -156,8 +160,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
 template <class Real>
 const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles,
                                                 const std::vector<Solid>& solids, const Substep& substep) {
-  const auto yields = [](const Solid& solid) { return solid.yields(); };
-  if (std::all_of(solids.begin(), solids.end(), yields)) return touches_;
+  if (all_yield(solids)) return touches_;
   const std::size_t count = particles.grid().size();
   const double h = substep.seconds;
   ahead_ = particles.position;
@@ -165,24 +168,39 @@ const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles
                       static_cast<Real>(h), count);
   kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.acceleration),
                       static_cast<Real>(h * h), count);
+  find_inside(particles, ahead_, solids, substep, touches_);
+  std::sort(touches_.begin(), touches_.end());
+  touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
+  return touches_;
+}
+
+template <class Real>
+const std::vector<Touch>& Contact<Real>::inside(const Particles<Real>& particles,
+                                                const std::vector<Solid>& solids, const Substep& substep) {
+  inside_.clear();
+  if (!all_yield(solids)) find_inside(particles, particles.position, solids, substep, inside_);
+  return inside_;
+}
+
+template <class Real>
+void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
+                                const std::vector<Solid>& solids, const Substep& substep,
+                                std::vector<Touch>& found) {
   for_each_struck(
-      ahead_, broad_phase_.find_pairs(ahead_, solids, {substep.to, substep.to, 0}),
+      position, broad_phase_.find_pairs(position, solids, {substep.to, substep.to, 0}),
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
         return solid.yields() ? std::uint32_t{0} : rows_inside(block, solid.placed(substep.to));
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
-        const Vec3 end(double(ahead_.x.at(row, col)), double(ahead_.y.at(row, col)),
-                       double(ahead_.z.at(row, col)));
+        const Vec3 place(double(position.x.at(row, col)), double(position.y.at(row, col)),
+                         double(position.z.at(row, col)));
         for (const Solid& solid : solids) {
-          if (solid.yields() || !solid.placed(substep.to).contains(end)) continue;
-          touches_.push_back({particles.grid().index(row, col), solid.id});
+          if (solid.yields() || !solid.placed(substep.to).contains(place)) continue;
+          found.push_back({particles.grid().index(row, col), solid.id});
         }
       });
-  std::sort(touches_.begin(), touches_.end());
-  touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
-  return touches_;
 }
 
 template <class Real>

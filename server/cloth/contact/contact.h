@@ -66,8 +66,9 @@ class Contact {
   explicit Contact(const Grid& grid) : broad_phase_(grid) {}
 
   /// Resolves the contacts at a substep's end, from which on solids that yield have the velocity that their
-  /// momentum gives. `start` holds the nodes' places at its start; without it they came there with the
-  /// velocities that they have. Returns the number of nodes in contact in this call.
+  /// momentum gives. `start` holds the nodes' places at its start, if the integrator has had friction bear on
+  /// their ways: it then leads none back farther than it let them slip. Without it they
+  /// came there with the velocities that they have. Returns the number of nodes in contact in this call.
   /// `rounded_off`, if the integrator keeps it, is what the positions' rounding leaves out, m.
   int resolve(Particles<Real>& particles, std::vector<Solid>& solids, const Substep& substep,
               const VectorField<Real>* start = nullptr, VectorField<Real>* rounded_off = nullptr);
@@ -75,6 +76,10 @@ class Contact {
   /// Before a substep: adds to touches() the free nodes that will be in a solid that does not yield at the
   /// substep's end if they go on with the velocity and the acceleration they have.
   const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                   const Substep& substep);
+  /// The free nodes that are now in a solid that does not yield, as that is at the substep's end. Valid until
+  /// the next call.
+  const std::vector<Touch>& inside(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
   /// Before a substep: the free nodes that will pass the surface of a solid that yields if all go on as they
   /// go. Valid until the next call.
@@ -98,9 +103,14 @@ class Contact {
   void for_each_struck(const VectorField<Real>& position, const std::vector<TileSolidPair>& pairs,
                        Struck struck, Visit visit);
 
+  /// Adds to `found` the free nodes that are, at these positions, in a solid that does not yield, as that is
+  /// at the substep's end.
+  void find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
+                   const std::vector<Solid>& solids, const Substep& substep, std::vector<Touch>& found);
+
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
-  std::vector<Touch> touches_;
+  std::vector<Touch> touches_, inside_;
   std::vector<Arrival> arrivals_;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
 };

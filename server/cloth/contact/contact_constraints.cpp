@@ -47,21 +47,12 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const double h = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
-  const auto before = [](const Constraint& c, const Touch& touch) { return c.touch < touch; };
   // `surface` as it will be beside the node if both go on as they go.
   const auto hold = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
-    const auto same = std::lower_bound(last_.begin(), last_.end(), touch, before);
-    const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
-    const Vec3 start = at(position, touch.node), move = solid.move_of(start, substep.from, substep.to),
-               guess = h * at(velocity, touch.node);
-    const Vec3 slip = guess - move;
-    const Vec3& normal = surface.normal;
-    const double sliding = (slip - slip.dot(normal) * normal).norm();
-    const auto index = static_cast<std::size_t>(&solid - solids.data());
     constraints_.push_back(
-        {touch, solid.yields() ? body_of(index, solid, bodies) : std::nullopt, normal,
-         normal.dot(guess) - surface.distance - solid.depth_left(start, substep.from, substep.to),
-         solid.led_out(start, substep.from, substep.to), move, solid.friction * force, sliding});
+        held_by(touch, solid, surface, at(position, touch.node), h * at(velocity, touch.node)));
+    if (!solid.yields()) return;
+    constraints_.back().body = body_of(static_cast<std::size_t>(&solid - solids.data()), solid, bodies);
   };
   // Pressed onto a solid they touch it, be they outside by a hair.
   std::vector<Touch> all = touches;
@@ -82,16 +73,79 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const auto touching = static_cast<std::ptrdiff_t>(constraints_.size());
   for (const Arrival& arrival : arrivals) {
     const auto end = constraints_.begin() + touching;
-    const auto same = std::lower_bound(constraints_.begin(), end, arrival.touch, before);
+    const auto same = std::lower_bound(constraints_.begin(), end, arrival.touch, is_before);
     if (same == end || same->touch != arrival.touch) {
       hold(arrival.touch, solids[arrival.solid], arrival.surface);
     }
   }
   if (!arrivals.empty()) {
-    std::sort(constraints_.begin(), constraints_.end(),
-              [](const Constraint& a, const Constraint& b) { return a.touch < b.touch; });
+    sort_by_touch();
   }
   if (solids.size() > 1) let_go_of_pinched(velocity);
+}
+
+template <class Real>
+bool ContactConstraints<Real>::is_before(const Constraint& c, const Touch& touch) {
+  return c.touch < touch;
+}
+
+template <class Real>
+void ContactConstraints<Real>::sort_by_touch() {
+  std::sort(constraints_.begin(), constraints_.end(),
+            [](const Constraint& a, const Constraint& b) { return a.touch < b.touch; });
+}
+
+template <class Real>
+auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, const Surface& surface,
+                                       const Vec3& place, const Vec3& way) const -> Constraint {
+  const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
+  const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
+  const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
+  const Vec3& normal = surface.normal;
+  const double sliding = (slip - slip.dot(normal) * normal).norm();
+  return {touch,
+          std::nullopt,
+          normal,
+          normal.dot(way) - surface.distance - solid.depth_left(place, substep_.from, substep_.to),
+          solid.led_out(place, substep_.from, substep_.to),
+          move,
+          solid.friction * force,
+          sliding};
+}
+
+/// This solid, or one that faces it, holds the node.
+template <class Real>
+bool ContactConstraints<Real>::holds_already(const Touch& touch, const Vec3& normal) const {
+  const Touch first{touch.node, 0};
+  for (auto c = std::lower_bound(constraints_.begin(), constraints_.end(), first, is_before);
+       c != constraints_.end() && c->touch.node == touch.node; ++c) {
+    if (c->touch == touch || c->normal.dot(normal) <= kFacing) return true;
+  }
+  return false;
+}
+
+template <class Real>
+bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
+                                           const std::vector<Solid>& solids,
+                                           kernels::Components<const Real> move, double links_stiffness,
+                                           double missed) {
+  const kernels::Components<const Real> position = kernels::components(particles.position);
+  std::vector<Constraint> more;
+  double energy = 0;
+  for (const Touch& touch : inside) {
+    const Solid& solid = *std::find_if(solids.begin(), solids.end(),
+                                       [&](const Solid& each) { return each.id == touch.collider; });
+    if (solid.steps_to_clear > 0) continue;  // what it was put onto is still led out
+    const Vec3 place = at(position, touch.node), way = at(move, touch.node);
+    const Surface surface = solid.placed(substep_.to).surface(place);
+    if (holds_already(touch, surface.normal)) continue;
+    energy += links_stiffness * surface.distance * surface.distance / 2;
+    more.push_back(held_by(touch, solid, surface, place - way, way));
+  }
+  if (energy <= missed) return false;
+  constraints_.insert(constraints_.end(), more.begin(), more.end());
+  sort_by_touch();
+  return true;
 }
 
 template <class Real>

@@ -21,8 +21,9 @@ namespace weft {
 /// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
 /// will have it: both would squeeze it out sideways, and stretch its springs at nobody's cost.
 ///
-/// Nodes that will meet a solid in the step are held to its surface from the start: put there after the step
-/// they would stretch their springs at nobody's cost.
+/// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
+/// iteration has put into one from the next on: put there after the step they would stretch their springs at
+/// nobody's cost.
 template <class Real>
 class ContactConstraints {
  public:
@@ -31,6 +32,12 @@ class ContactConstraints {
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
              AttachedBodies<Real>& bodies);
+  /// Between Newton iterations: holds the nodes that are inside at `move` and not held yet, if it takes more
+  /// energy than `missed`, J, to push them out one by one against links of this stiffness at a node, N/m.
+  /// False if it holds no more than before.
+  bool hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
+                   const std::vector<Solid>& solids, kernels::Components<const Real> move,
+                   double links_stiffness, double missed);
   void clear() { constraints_.clear(); }
   bool empty() const { return constraints_.empty(); }
 
@@ -73,6 +80,12 @@ class ContactConstraints {
     double force = 0;               ///< along the normal, N
     bool released = false;
   };
+  static bool is_before(const Constraint& c, const Touch& touch);
+  void sort_by_touch();
+  bool holds_already(const Touch& touch, const Vec3& normal) const;
+  /// `place` is the node's when the substep begins, `way` its move that `surface` was looked up for.
+  Constraint held_by(const Touch& touch, const Solid& solid, const Surface& surface, const Vec3& place,
+                     const Vec3& way) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   std::optional<int> body_of(std::size_t index, const Solid& solid, AttachedBodies<Real>& bodies);
   static Vec3 move_of(const Constraint& c, kernels::Components<const Real> move,

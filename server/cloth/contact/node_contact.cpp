@@ -29,7 +29,9 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
       const Surface surface = moving.shape.surface(position_);
       const double held = lose_velocity(moving, surface.normal);
       bool outside = put_on(moving, surface);
-      if (held > 0) outside = slide_back(moving, held);
+      const double most = slip_is_left_ ? -moving.solid->friction * surface.distance
+                                        : std::numeric_limits<double>::infinity();
+      if (held > 0) outside = slide_back(moving, held, most);
       moved = outside || moved;
       met = true;
       if (round == 0) touches.push_back(touch(*moving.solid));
@@ -132,15 +134,16 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
   return true;
 }
 
-/// Friction takes back `share` of the way slid from where the node began, put at the same height: from
-/// surface to surface, as a node that is held whole would creep against what pulls it if it were led back
-/// along the tangent plane at a place that it does not reach. As put_on.
+/// Friction takes back `share` of the way slid from where the node began, put at the same height, and `most`,
+/// m, at most: from surface to surface, as a node that is held whole would creep against what pulls it if it
+/// were led back along the tangent plane at a place that it does not reach. As put_on.
 template <class Real>
-bool NodeContact<Real>::slide_back(const MovingSolid& moving, double share) {
+bool NodeContact<Real>::slide_back(const MovingSolid& moving, double share, double most) {
   const Vec3 began = start_ + moving.move_of(start_, 0);
   const Surface first = moving.shape.surface(began), last = moving.shape.surface(position_);
-  const Vec3 held = began + (last.distance - first.distance) * first.normal;
-  set_position(position_ + share * (held - position_));
+  const Vec3 back = began + (last.distance - first.distance) * first.normal - position_;
+  const double slid = back.norm();
+  if (slid > 0) set_position(position_ + std::min(share, most / slid) * back);
   return put_on(moving, moving.shape.surface(position_));
 }
 

@@ -44,9 +44,12 @@ class NodeContact {
   struct State {
     Particles<Real>& particles;
     VectorField<Real>* rounded_off;  ///< or none (Contact::resolve)
+    /// Friction has borne on the way: it left a slip of at most its coefficient times the depth it left, as
+    /// contact springs are as stiff along the surface as across it (ContactConstraints).
+    bool slip_is_left;
   };
   /// `move` is the node's in the substep.
-  NodeContact(const State& state, int row, int col, const Vec3& move, double seconds)
+  NodeContact(const State& state, int row, int col, const Vec3& move)
       : particles_(state.particles),
         rounded_off_(state.rounded_off),
         row_(row),
@@ -54,7 +57,7 @@ class NodeContact {
         position_(state.particles.position_at(row, col)),
         start_(position_ - move),
         move_(move),
-        seconds_(seconds) {}
+        slip_is_left_(state.slip_is_left) {}
 
   /// Brings the node out of all solids (pinched between two it stays with the one that moves least), and back
   /// from beyond those it passed through; those that yield get what it gives them, `touches` what it met.
@@ -80,7 +83,7 @@ class NodeContact {
                                              const std::vector<MovingSolid>& solids);
   void hold_at(MovingSolid& still);
   double lose_velocity(MovingSolid& moving, const Vec3& normal);
-  bool slide_back(const MovingSolid& moving, double share);
+  bool slide_back(const MovingSolid& moving, double share, double most);
   double part_with(const Vec3& lost, MovingSolid& moving);
   bool put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
@@ -93,7 +96,7 @@ class NodeContact {
   VectorField<Real>* rounded_off_;
   int row_, col_;
   Vec3 position_, start_, move_;
-  double seconds_;
+  bool slip_is_left_;
 };
 
 extern template class NodeContact<float>;

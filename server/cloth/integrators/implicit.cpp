@@ -90,6 +90,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       contacts.clear();
       state_->system.bodies().clear();
     }
+    surroundings_ = {contact, &solids, part};
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
@@ -270,9 +271,25 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
-    if (report.brought_in <= 0 && (error <= solved.target || (left <= 1 && error <= kRough * s.scale))) break;
+    const bool done =
+        report.brought_in <= 0 && (error <= solved.target || (left <= 1 && error <= kRough * s.scale));
+    if (done && !hold_inside(particles, *forces.springs, solved.target)) break;
   }
   return report;
+}
+
+template <class Real>
+bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs<Real>& springs,
+                                 double missed) {
+  const auto& [contact, solids, part] = surroundings_;
+  if (contact == nullptr) return false;
+  State& s = *state_;
+  if (!s.contacts.hold_inside(contact->inside(particles, *solids, part), particles, *solids, s.move,
+                              springs.node_stiffness(), missed))
+    return false;
+  s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  begin_formula(s.h);
+  return true;
 }
 
 template <class Real>
@@ -289,7 +306,7 @@ template <class Real>
 auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
   State& s = *state_;
   s.one_sided.clear();
-  s.contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
+  if (!s.contacts.empty()) s.contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
   if (forces.layers != nullptr) forces.layers->append_springs(s.move, s.change, s.one_sided);
   const double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
   if (share < 1) scale_change(share);

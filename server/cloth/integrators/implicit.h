@@ -15,12 +15,12 @@ namespace weft {
 ///
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
-/// of the motion's energy, if a contact's constraint pulled, if only a share of the change was taken, as
-/// contacts that the system did not hold came in its way (best_share), or if the step
-/// brings in energy, some further ones are made; if it still brings in energy, the step is taken back and
-/// made again by backward Euler with a line search: each change is halved until it brings in none (Nocedal
-/// and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a halved change does not
-/// keep the momentum.
+/// of the motion's energy, if a contact's constraint pulled, if nodes are inside a solid that none holds, if
+/// only a share of the change was taken, as contacts that the system did not hold came in its way
+/// (best_share), or if the step brings in energy, some further ones are made; if it still brings in energy,
+/// the step is taken back and made again by backward Euler with a line search: each change is halved until it
+/// brings in none (Nocedal and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a
+/// halved change does not keep the momentum.
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
@@ -90,6 +90,8 @@ class Implicit final : public Integrator<Real> {
   void begin_formula(double h);
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
+  bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   /// Less than the whole where contacts come in its way.
   ChangeReport whole_change(const Forces<Real>& forces, double decrease);
   ChangeReport searched_change(const Forces<Real>& forces, double decrease);
@@ -102,6 +104,12 @@ class Implicit final : public Integrator<Real> {
   ImplicitParameters parameters_;
   bool second_order_;
   std::optional<State> state_;
+  struct Surroundings {
+    Contact<Real>* contact = nullptr;  ///< or none
+    const std::vector<Solid>* solids = nullptr;
+    Substep substep;
+  };
+  Surroundings surroundings_;  ///< in the substep in hand
 };
 
 extern template class Implicit<float>;

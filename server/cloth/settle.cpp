@@ -1,0 +1,63 @@
+#include "cloth/settle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// The first takes out most of the energy, the second what the nodes pushed out of solids leave: of 8.9 J in
+/// a draped sheet of 2 m whose level falls from 5 to 4 they leave 1.3 and 0.8, two more 0.8.
+constexpr int kSteps = 2;
+
+/// As they are when the step begins, at rest.
+std::vector<Solid> at_start(std::vector<Solid> solids) {
+  for (Solid& solid : solids) {
+    solid.rotation = solid.placed(0).rotation;
+    solid.position = solid.start;
+    solid.velocity = solid.turn = solid.spin = Vec3::Zero();
+    solid.inverse_mass = 0;
+  }
+  return solids;
+}
+
+template <class Real>
+void stop(Particles<Real>& particles) {
+  for (VectorField<Real>* field : {&particles.velocity, &particles.acceleration}) {
+    for (Field<Real>* component : {&field->x, &field->y, &field->z}) {
+      std::fill(component->values().begin(), component->values().end(), Real(0));
+    }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void settle(Particles<Real>& particles, const Springs<Real>& springs, const Plate<Real>* plate,
+            const ClothDescription& cloth, Contact<Real>* contact, const std::vector<Solid>& solids,
+            double longest) {
+  if (cloth.material.structural == 0) return;
+  const double crossing =
+      cloth.size.maxCoeff() * std::sqrt(cloth.material.density / cloth.material.structural);
+  const Particles<Real> before = particles;
+  std::vector<Solid> still = at_start(solids);
+  const Wind calm;
+  const std::vector<std::unique_ptr<Effect<Real>>> no_effects;
+  const Forces<Real> forces{&springs, &no_effects, {&cloth, &calm, 0}, nullptr, plate};
+  const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
+  bool sound = true;
+  for (int step = 0; step < kSteps && sound; ++step) {
+    stop(particles);
+    sound = relaxing->advance(particles, forces, contact, still, 0, std::min(crossing, longest)).sound;
+  }
+  if (!sound) particles.position = before.position;
+  particles.velocity = before.velocity;
+  particles.acceleration = before.acceleration;
+}
+
+template void settle<float>(Particles<float>&, const Springs<float>&, const Plate<float>*,
+                            const ClothDescription&, Contact<float>*, const std::vector<Solid>&, double);
+template void settle<double>(Particles<double>&, const Springs<double>&, const Plate<double>*,
+                             const ClothDescription&, Contact<double>*, const std::vector<Solid>&, double);
+
+}  // namespace weft

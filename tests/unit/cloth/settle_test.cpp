@@ -1,0 +1,91 @@
+// What a level change puts into the springs comes out again, without motion.
+#include "cloth/settle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloth/simulation.h"
+#include "fixtures.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+using test::set;
+
+const Vec2 kSize{2, 2};
+
+/// The fine sheet rolled about the y axis, radius 0.2 m, so that its structural springs are not strained:
+/// each spans an angle of 2 asin(h / 2 R).
+Particles<double> rolled(int rows) {
+  Particles<double> sheet = test::flat_sheet<double>(rows, rows, kSize);
+  const double h = kSize.x() / (rows - 1), radius = 0.2, angle = 2 * std::asin(h / (2 * radius));
+  each_node(sheet.grid(), [&](int r, int c) {
+    const double turned = angle * (c - (rows - 1) / 2.0);
+    set(sheet.position, r, c, {radius * std::sin(turned), -h * r, radius * std::cos(turned)});
+    set(sheet.velocity, r, c, {1, 2, 3});
+  });
+  return sheet;
+}
+
+struct Merged {
+  ClothDescription cloth;
+  Particles<double> sheet;
+  Springs<double> springs;
+
+  Merged()
+      : sheet(test::flat_sheet<double>(17, 17, kSize)),
+        springs(cloth.material, cloth.discretization, kSize, sheet.grid()) {
+    merge(rolled(33), sheet);
+    test::share_mass(sheet, 0.4, Discretization::continuum);
+  }
+  double strain() const { return springs.structural_strain(sheet.position).max; }
+};
+
+TEST(Settle, TakesOutWhatAMergePutsIntoTheSpringsAcrossAFold) {
+  // The coarse springs span two fine ones: shorter than rest by 1 - cos(asin(h / 2 R)), h the fine cell.
+  Merged merged;
+  EXPECT_NEAR(merged.strain(), 1 - std::cos(std::asin(0.0625 / 0.4)), 1e-12);
+  const double before = merged.springs.energy(merged.sheet.position);
+  settle<double>(merged.sheet, merged.springs, nullptr, merged.cloth, nullptr, {}, 1.0 / 60);
+  EXPECT_LT(merged.strain(), 0.1 * (1 - std::cos(std::asin(0.0625 / 0.4))));
+  EXPECT_LT(merged.springs.energy(merged.sheet.position), 0.1 * before);
+  each_node(merged.sheet.grid(),
+            [&](int r, int c) { EXPECT_EQ(merged.sheet.velocity_at(r, c), Vec3(1, 2, 3)); });
+}
+
+TEST(Settle, LeavesAFlatSheetWhereItIs) {
+  Particles<double> sheet = test::flat_sheet<double>(17, 17, kSize);
+  test::share_mass(sheet, 0.4, Discretization::continuum);
+  const Particles<double> before = sheet;
+  const ClothDescription cloth;
+  const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
+  settle<double>(sheet, springs, nullptr, cloth, nullptr, {}, 1.0 / 60);
+  each_node(sheet.grid(), [&](int r, int c) {
+    EXPECT_LT((sheet.position_at(r, c) - before.position_at(r, c)).norm(), 1e-12);
+  });
+}
+
+TEST(Settle, TheLevelOfAHungSheetChangedForEverDoesNotShakeIt) {
+  // XPBD hangs longer the finer the level; what a merge finds too long must not become motion. Nothing moves
+  // it: it stays slower than what falling by its stretch, under 5 cm, would give it.
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.min_level = 4;
+  cloth.initial_level = 5;
+  cloth.pins = {{0, 1, 0, 0}};
+  scene.cloths = {cloth};
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  scene.integrator = XpbdDescription{};
+  Simulation<float> simulation(scene);
+  constexpr int kLevels[] = {4, 5, 6, 5};
+  for (int step = 0; step < 240; ++step) {
+    simulation.request_level(0, kLevels[step % 4]);
+    simulation.step();
+    EXPECT_LT(simulation.report(0).kinetic_energy, 0.4 * 9.81 * 0.05) << step;
+  }
+}
+
+}  // namespace
+}  // namespace weft
