@@ -17,7 +17,7 @@ constexpr float kSoft = 50, kStiff = 5000;
 constexpr float kStiffer = 4, kSofter = 0.7F;
 constexpr double kKept = 0.8, kHardlyKept = 0.4;
 /// Part of what layers lack of their gap that they are led apart in a step.
-constexpr double kLedApart = 0.2;
+constexpr double kLedApart = 0.1;
 
 double led(double distance, double gap) {
   return distance < gap ? distance + kLedApart * (gap - distance) : gap;

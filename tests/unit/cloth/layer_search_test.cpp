@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cloth/layers/feature_search.h"
+
+namespace weft::test {
+namespace {
+
+using Kind = FeaturePair::Kind;
+
+FourPoints random_points(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> value(-1, 1);
+  FourPoints points;
+  for (Vec3& p : points) p = {value(random), value(random), value(random)};
+  return points;
+}
+
+/// By looking at many points of both features.
+double sampled_distance(Kind kind, const FourPoints& p) {
+  constexpr int kParts = 60;
+  double least = 1e9;
+  for (int i = 0; i <= kParts; ++i) {
+    for (int j = 0; j <= kParts; ++j) {
+      const double s = double(i) / kParts, t = double(j) / kParts;
+      if (kind == Kind::edge_edge) {
+        least = std::min(least, (p[0] + s * (p[1] - p[0]) - p[2] - t * (p[3] - p[2])).norm());
+      } else if (s + t <= 1) {
+        least = std::min(least, (p[0] - p[1] - s * (p[2] - p[1]) - t * (p[3] - p[1])).norm());
+      }
+    }
+  }
+  return least;
+}
+
+/// A folded strip as the nodes of a scene: two layers 4 mm apart, joined by a half circle.
+LayerNodes folded(const Grid& grid) {
+  LayerNodes nodes;
+  nodes.first = {0, static_cast<std::uint32_t>(grid.size())};
+  nodes.start.assign(grid.size(), Vec3(0, 0, 0));
+  nodes.inverse_mass.assign(grid.size(), 0.0);
+  nodes.tangled.assign(grid.size(), 0);
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const double s = double(c) / (grid.cols - 1) - 0.5, z = double(r) / (grid.rows - 1);
+      nodes.start[grid.index(r, c)] = {std::abs(s), s > 0 ? 0.004 : 0, z};
+      nodes.inverse_mass[grid.index(r, c)] = 1;
+    }
+  }
+  nodes.end = nodes.velocity = nodes.acceleration = nodes.start;
+  return nodes;
+}
+
+}  // namespace
+
+TEST(Nearness, IsNoFartherThanAnyPointsSampled) {
+  std::mt19937_64 random(1);
+  for (const Kind kind : {Kind::node_triangle, Kind::edge_edge}) {
+    for (int i = 0; i < 300; ++i) {
+      const FourPoints points = random_points(random);
+      const double distance = nearness(kind, points).apart.norm(), sampled = sampled_distance(kind, points);
+      EXPECT_LE(distance, sampled + 1e-12);
+      EXPECT_NEAR(distance, sampled, 0.08);  // samples lie at most 2 sqrt(3) sqrt(2) / 60 apart
+    }
+  }
+}
+
+TEST(FirstContact, MissesNoneAndComesNoNearerThanTheGap) {
+  std::mt19937_64 random(2);
+  int met = 0;
+  for (const Kind kind : {Kind::node_triangle, Kind::edge_edge}) {
+    for (int i = 0; i < 300; ++i) {
+      const FourPoints start = random_points(random), move = random_points(random);
+      const double distance = nearness(kind, start).apart.norm(), gap = 0.02;
+      const auto time = first_contact(kind, distance, start, move, gap);
+      met += time ? 1 : 0;
+      const double least = std::min(gap, 0.9 * distance);
+      for (int k = 0; k <= 400; ++k) {
+        const double t = time.value_or(1) * k / 400;
+        FourPoints points = start;
+        for (std::size_t n = 0; n < 4; ++n) points[n] += t * move[n];
+        ASSERT_GE(nearness(kind, points).apart.norm(), least * (1 - 1e-9));
+      }
+    }
+  }
+  EXPECT_GT(met, 50);
+}
+
+TEST(FeatureSearch, FindsAllThatIsNearInAFoldAndNothingInAFlatSheet) {
+  const Grid grid = Grid::with_nodes(17, 33);
+  LayerNodes nodes = folded(grid);
+  FeatureSearch search;
+  search.set_grids({grid});
+  const double margin = 0.01;
+  const auto& found = search.find(nodes, margin);
+  // Every node that lies over a triangle of the other layer within the margin, by looking at all of them.
+  std::size_t expected = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const auto node = static_cast<std::uint32_t>(grid.index(r, c));
+      for (int tr = 0; tr + 1 < grid.rows; ++tr) {
+        for (int tc = 0; tc + 1 < grid.cols; ++tc) {
+          if ((c < 14 && tc < 18) || (c > 18 && tc > 13) || (c >= 14 && c <= 18))
+            continue;  // not at the fold
+          const auto top = static_cast<std::uint32_t>(grid.index(tr, tc));
+          const auto bottom = static_cast<std::uint32_t>(grid.index(tr + 1, tc));
+          for (const std::array<std::uint32_t, 3>& t :
+               {std::array{top, bottom, bottom + 1}, std::array{top, bottom + 1, top + 1}}) {
+            const FeaturePair pair{Kind::node_triangle, {node, t[0], t[1], t[2]}};
+            if (nearness(pair.kind, points_of(pair, nodes.start)).apart.norm() > margin) continue;
+            ++expected;
+            EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const FeaturePair& f) {
+              return f.kind == pair.kind && f.node == pair.node;
+            }));
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(expected, 300u);
+  // Unfolded, and whichever way it moves as a whole.
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      Vec3& x = nodes.start[grid.index(r, c)];
+      x = {double(c) / (grid.cols - 1), 0, x.z()};
+      nodes.end[grid.index(r, c)] = x + Vec3(0.1, 3, 0);
+    }
+  }
+  EXPECT_TRUE(search.find(nodes, margin).empty());
+  EXPECT_EQ(search.cell_pairs(), 0u);
+}
+
+}  // namespace weft::test
