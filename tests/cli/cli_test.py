@@ -16,7 +16,8 @@ BAD_SCENES = pathlib.Path(os.environ["WEFT_BAD_SCENES"])
 HASHES = pathlib.Path(__file__).with_name("hashes.json")
 LIMIT_S = 120
 
-PRESETS = ["flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk", "cape", "sail", "trampoline", "washing-line", "swing",
+PRESETS = ["flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk", "round-table", "cape", "sail", "trampoline", "washing-line",
+           "towel", "swing",
            "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
 
 

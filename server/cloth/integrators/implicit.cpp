@@ -271,9 +271,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
-    const bool done =
-        report.brought_in <= 0 && (error <= solved.target || (left <= 1 && error <= kRough * s.scale));
-    if (done && !hold_inside(particles, *forces.springs, solved.target)) break;
+    const double allowed = left > 1 ? solved.target : std::max(solved.target, kRough * s.scale);
+    const bool done = report.brought_in <= 0 && error <= allowed;
+    if (done && !hold_inside(particles, *forces.springs, allowed)) break;
   }
   return report;
 }

@@ -63,13 +63,18 @@ TEST(BadScenes, ADocumentWithInfinityIsRefused) {
             "/cloths/0/perturbation: is not finite; must be a number from 0 to 100 m\n");
 }
 
+TEST(BadScenes, OnlyASceneThatIsAFileNamesFiles) {
+  const std::string text =
+      R"({"cloths": [{}], "colliders": [{"type": "mesh", "position": [0, 0, 0], "file": "box.obj"}]})";
+  EXPECT_EQ(problems_of(parse(text, "sent")),
+            "/colliders/0/file: is \"box.obj\", which is given by a scene that is not a file itself\n");
+}
+
 TEST(BadScenes, MissingFilesNameThePresets) {
   EXPECT_EQ(problems_of(load("no-such-scene")),
             "no-such-scene: No such file or directory (neither a file nor a preset; the presets are flag, "
             "flag-gusts, curtain, fan, tablecloth, silk, round-table, cape, sail, trampoline, washing-line, "
-            "swing, "
-            "zheng2020-wind, zheng2020-distance, "
-            "zheng2020-ball)\n");
+            "towel, swing, zheng2020-wind, zheng2020-distance, zheng2020-ball)\n");
 }
 
 }  // namespace
