@@ -102,7 +102,7 @@ Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiff
   if (length == 0) return Eigen::Matrix3d::Zero();
   const Vec3 n = d / length;
   const Eigen::Matrix3d along = n * n.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  const Eigen::Matrix3d own = stiffness * along + stiffness * (1 - rest_length / length) * across;
+  Eigen::Matrix3d own = stiffness * along + stiffness * (1 - rest_length / length) * across;
   if (length <= limit.length) return own;
   return own + (limit.stiffening - 1) * stiffness * (along + (1 - limit.length / length) * across);
 }

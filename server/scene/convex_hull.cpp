@@ -61,6 +61,7 @@ class Qhull {
     std::sort(corners.begin(), corners.end(),
               [](const Corner& a, const Corner& b) { return a.angle < b.angle; });
     std::vector<int> result;
+    result.reserve(corners.size());
     for (const Corner& corner : corners) result.push_back(corner.point);
     return result;
   }

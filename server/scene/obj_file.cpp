@@ -26,7 +26,7 @@ fs::path place_of(const fs::path& folder, const std::string& file) {
   }
   std::error_code error;
   const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
-  const fs::path place = fs::canonical(home / relative, error);
+  fs::path place = fs::canonical(home / relative, error);
   if (error) refuse("cannot be read: " + error.message());
   if (std::mismatch(home.begin(), home.end(), place.begin(), place.end()).first != home.end()) {
     refuse("is a link out of the scene file's folder");

@@ -97,7 +97,7 @@ const TriangleOctree::Cell* TriangleOctree::cell_at(const Vec3& point) const {
   const Cell* cell = cells_.data();
   for (Place place = root_; cell->children >= 0;) {
     const int child = child_with(place, point);
-    cell = &cells_[static_cast<std::size_t>(cell->children + child)];
+    cell = &child_cell(*cell, child);
     place = child_of(place, child);
   }
   return cell;
@@ -156,8 +156,7 @@ void TriangleOctree::search(const Cell& cell, const Place& place, const Vec3& po
   });
   for (const Part& part : parts) {
     if (part.square >= best.square) break;
-    search(cells_[static_cast<std::size_t>(cell.children + part.child)], child_of(place, part.child), point,
-           best);
+    search(child_cell(cell, part.child), child_of(place, part.child), point, best);
   }
 }
 

@@ -69,6 +69,9 @@ class TriangleOctree {
   template <class Visit>
   void walk(const Cell& cell, const Place& place, const Vec3& from, const Vec3& way, Visit& visit) const;
 
+  const Cell& child_cell(const Cell& parent, int child) const {
+    return cells_[static_cast<std::size_t>(parent.children) + static_cast<std::size_t>(child)];
+  }
   static Place child_of(const Place& place, int child) {
     const double half = place.half / 2;
     return {place.centre + Vec3((child & 1) != 0 ? half : -half, (child & 2) != 0 ? half : -half,
@@ -105,7 +108,7 @@ void TriangleOctree::for_each_along(const Vec3& from, const Vec3& to, Visit visi
     while (cell->children >= 0) {
       const int child = child_with(place, from);
       if (child_with(place, to) != child) break;
-      cell = &cells_[static_cast<std::size_t>(cell->children + child)];
+      cell = &child_cell(*cell, child);
       place = child_of(place, child);
     }
   }
@@ -122,7 +125,7 @@ void TriangleOctree::walk(const Cell& cell, const Place& place, const Vec3& from
     return;
   }
   for (int child = 0; child < 8; ++child) {
-    walk(cells_[static_cast<std::size_t>(cell.children + child)], child_of(place, child), from, way, visit);
+    walk(child_cell(cell, child), child_of(place, child), from, way, visit);
   }
 }
 

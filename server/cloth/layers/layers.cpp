@@ -33,6 +33,7 @@ double half_a_cell(const ClothDescription& cloth, const Grid& grid) {
 template <class Real>
 void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   std::vector<Grid> grids;
+  grids.reserve(cloths.size());
   for (const Cloth<Real>& cloth : cloths) grids.push_back(cloth.particles().grid());
   if (grids == grids_) return;
   grids_ = grids;
@@ -178,7 +179,7 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
       continue;
     }
     pair.side = sheet_normal(features.node[0]).dot(pair.normal) > 0 ? 1 : 0;
-    int& slot = nearest[2 * features.node[0] + static_cast<std::size_t>(pair.side)];
+    int& slot = nearest[2 * std::size_t{features.node[0]} + static_cast<std::size_t>(pair.side)];
     if (slot < 0) {
       slot = static_cast<int>(found.size());
       found.push_back({distance, pair});

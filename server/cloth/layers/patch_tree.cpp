@@ -42,7 +42,7 @@ void PatchTree::refit(const Vec3* start, const Vec3* end) {
   Level& cells = levels_.front();
   for (int r = 0; r < cells.rows; ++r) {
     for (int c = 0; c < cells.cols; ++c) {
-      Patch& patch = cells.patches[static_cast<std::size_t>(r * cells.cols + c)];
+      Patch& patch = cells.patches[cells.index(r, c)];
       patch = {};
       const std::size_t top = grid_.index(r, c), bottom = grid_.index(r + 1, c);
       for (const Vec3* x : {start, end}) {
@@ -67,7 +67,7 @@ void PatchTree::refit(const Vec3* start, const Vec3* end) {
           patch.along_u.extend(part.along_u);
           patch.along_v.extend(part.along_v);
         }
-        coarse.patches[static_cast<std::size_t>(r * coarse.cols + c)] = patch;
+        coarse.patches[coarse.index(r, c)] = patch;
       }
     }
   }

@@ -69,7 +69,10 @@ class PatchTree {
   struct Level {
     int rows = 0, cols = 0;
     std::vector<Patch> patches;
-    const Patch& at(Cell c) const { return patches[static_cast<std::size_t>(c.row * cols + c.col)]; }
+    const Patch& at(Cell c) const { return patches[index(c.row, c.col)]; }
+    std::size_t index(int row, int col) const {
+      return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+    }
   };
   static bool one_to_one(const Patch& patch);
   /// All patches from a to b, if they are few, are together one to one.
