@@ -61,44 +61,36 @@ bool CollisionNet::push_apart(const FeaturePair& pair, LayerNodes& nodes) {
   return true;
 }
 
-NetReport CollisionNet::apply(FeatureSearch& search, LayerNodes& nodes) {
-  NetReport report;
+bool CollisionNet::apply(FeatureSearch& search, LayerNodes& nodes) {
   const std::size_t count = nodes.start.size();
   const std::vector<FeaturePair>* pairs = &search.found(nodes, kInSight * gap_, kMargin * gap_);
-  if (pairs->empty()) return report;
+  if (pairs->empty()) return false;
   untouched_ = nodes.end;
   changed_.assign(count, 1);
   zone_.clear();
   for (int round = 0; round < kRounds; ++round) {
     changing_.assign(count, 0);
     const bool zones = round >= kImpulseRounds;
-    int met = 0;
+    bool met = false;
     for (const FeaturePair& pair : *pairs) {
       const auto changed = [&](std::uint32_t n) { return changed_[n] != 0 || changing_[n] != 0; };
       if (std::none_of(pair.node.begin(), pair.node.end(), changed)) continue;
       if (!zones) {
-        if (push_apart(pair, nodes)) ++met;
+        met = push_apart(pair, nodes) || met;
       } else if (!one_zone(pair) && meets(pair, nodes)) {
-        ++met;
+        met = true;
         join(pair);
       }
     }
-    if (round == 0) report.contacts = met;
-    if (met == 0) return report;
-    if (zones) {
-      report.zones += met;
-      move_zones(nodes);
-    } else {
-      report.impulses += met;
-    }
+    if (!met) return round > 0;
+    if (zones) move_zones(nodes);
     changed_.swap(changing_);
     const std::size_t searches = search.searches();
     pairs = &search.found(nodes, kInSight * gap_, kMargin * gap_);
     if (search.searches() != searches) changed_.assign(count, 1);
   }
   nodes.end = nodes.start;
-  report.stopped = true;
-  return report;
+  return true;
 }
 
 std::uint32_t CollisionNet::root(std::uint32_t node) {

@@ -3,15 +3,6 @@
 
 namespace weft {
 
-/// What the net had to do.
-struct NetReport {
-  int contacts = 0;      ///< pairs whose ways met
-  int impulses = 0;      ///< applied
-  int zones = 0;         ///< rigid ones
-  bool stopped = false;  ///< all nodes were put back to where the step began
-  bool changed() const { return contacts > 0; }
-};
-
 /// Sees to it that no cloth passes through itself or another: after a step that began without intersections
 /// there are none. Features whose straight ways meet are given inelastic impulses along the normal, pair by
 /// pair; those that still meet become rigid impact zones, each of which goes on as the rigid body of its
@@ -28,7 +19,8 @@ class CollisionNet {
 
   double gap() const { return gap_; }
 
-  NetReport apply(FeatureSearch& search, LayerNodes& nodes);
+  /// False if no ways met: nothing was changed.
+  bool apply(FeatureSearch& search, LayerNodes& nodes);
   /// Of the last apply(): by how much each node was moved is end - this.
   const std::vector<Vec3>& untouched_end() const { return untouched_; }
 

@@ -205,12 +205,10 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
 
 template <class Real>
 void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
-  net_report_ = {};
   if (std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   read(cloths, nodes_.end);
   read_masses(cloths);
-  net_report_ = net_.apply(search_, nodes_);
-  if (!net_report_.changed()) return;
+  if (!net_.apply(search_, nodes_)) return;
   const std::vector<Vec3>& untouched = net_.untouched_end();
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     bool changed = false;

@@ -28,8 +28,6 @@ class Layers {
   /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth.
   void end_step(std::vector<Cloth<Real>>& cloths, double dt);
 
-  /// What the net had to do in the last step.
-  const NetReport& net_report() const { return net_report_; }
   /// Nodes that are left alone, as the last step began.
   int tangled_nodes() const { return tangled_; }
 
@@ -52,7 +50,6 @@ class Layers {
   bool found_ = false;  ///< pairs, at these levels
   bool may_be_tangled_ = true;
   int tangled_ = 0;
-  NetReport net_report_;
 };
 
 extern template class Layers<float>;
