@@ -280,7 +280,9 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
-  if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
+  if (resting() && grabs_ != nullptr) wake();
+  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
+    return {.nodes_in_contact = nodes_in_contact_};
   if (std::exchange(unsettled_, false)) {
     settle(particles_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(), solids, dt);
   }
