@@ -281,8 +281,10 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
+  if (resting() && grabs_ != nullptr) wake();
   if (!solids.empty() && is_put_onto(particles_, contact(), solids)) unsettled_ = Unsettled::by_solid;
-  if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
+  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
+    return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
     if (unsettled_ != Unsettled::no) {
       settle(particles_, unsettled_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(),

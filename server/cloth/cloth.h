@@ -63,9 +63,16 @@ class Cloth {
   /// is the caller who wakes it. Tests inject faults so.
   void add_effect(std::unique_ptr<Effect<Real>> effect);
 
-  /// Its steps are left out, as nothing moves: substeps is 0 and the state keeps its bits (sleep.h).
+  /// Its steps are left out, as nothing moves or it rests: substeps is 0 and the state keeps its bits
+  /// (sleep.h).
   bool asleep() const { return sleep_.asleep(); }
   void wake() { sleep_.wake(); }
+  /// While it rests its steps are left out, too, whatever its motion and the wind; not those in which
+  /// something moves it: its pins, a hand, a solid or another cloth near it. It goes on from where it was.
+  void set_resting(bool resting) { sleep_.set_resting(resting); }
+  bool resting() const { return sleep_.resting(); }
+  /// The last step was left out for that, though it may move.
+  bool left_out() const { return sleep_.left_out(); }
   /// Stands still at its last good state, as no way of stepping it from there gives a good one
   /// (step_guard.h).
   bool frozen() const { return guard_.frozen(); }

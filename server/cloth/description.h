@@ -11,6 +11,7 @@
 #include "cloth/grid.h"
 #include "cloth/level_policy.h"
 #include "cloth/material.h"
+#include "cloth/relevance.h"
 #include "cloth/vec3.h"
 #include "cloth/wind/wind.h"
 
@@ -137,6 +138,7 @@ struct ClothDescription {
   Material material;
   Discretization discretization = Discretization::continuum;
   std::vector<PinRegion> pins;
+  Relevance relevance;
 };
 
 struct BallDescription {

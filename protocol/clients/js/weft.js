@@ -356,7 +356,11 @@ export class WeftClient {
     if (this.#socket?.readyState === 1) this.#socket.send(text);
   }
 
-  /** Tells where this viewer's camera is; remembered, and told again after a reconnection. @param {{distance: number}|{eye: Vector}} where */
+  /**
+   * Tells where this viewer's camera is; remembered, and told again after a reconnection. With an eye, `target` (what it looks at)
+   * and `half_angle` (rad) say what it has in sight; without them it sees in every direction.
+   * @param {{distance: number}|{eye: Vector, target?: Vector, half_angle?: number}} where
+   */
   camera(where) {
     this.#camera = where;
     return this.send('camera', where);

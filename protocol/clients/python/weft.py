@@ -395,9 +395,11 @@ class Client:
         """Sends a message that only an error would answer (to `on_message`)."""
         await self._write(message_text(op, members))
 
-    async def camera(self, *, distance: typing.Optional[float] = None, eye=None) -> dict:
-        """Where this viewer's camera is: exactly one of its distance (m) and its position."""
-        return await self.send("camera", distance=distance, eye=eye)
+    async def camera(self, *, distance: typing.Optional[float] = None, eye=None, target=None,
+                     half_angle: typing.Optional[float] = None) -> dict:
+        """Where this viewer's camera is: exactly one of its distance (m) and its position. With a position, `target` (what it looks
+        at) and `half_angle` (rad) say what it has in sight; without them it sees in every direction."""
+        return await self.send("camera", distance=distance, eye=eye, target=target, half_angle=half_angle)
 
     async def list_scenes(self) -> typing.List[dict]:
         return (await self.send("scene.list"))["scenes"]

@@ -94,17 +94,21 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   const bool anew = !found_;
   found_ = true;
+  left_out_.resize(cloths.size(), 0);
   read(cloths, nodes_.start);
   read_masses(cloths);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     const Particles<Real>& particles = cloths[k].particles();
     const auto v = kernels::components(particles.velocity);
+    // Where a step was left out the last velocities are not those of a step before.
+    const bool gap = left_out_[k] != 0 || cloths[k].left_out();
+    left_out_[k] = cloths[k].left_out() ? 1 : 0;
     for (std::size_t i = 0; i < grids_[k].size(); ++i) {
       const std::size_t n = nodes_.first[k] + i;
       const Vec3 before = nodes_.velocity[n];
       nodes_.velocity[n] = nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
       nodes_.acceleration[n] = Vec3(0, 0, 0);
-      if (anew || nodes_.inverse_mass[n] == 0) continue;
+      if (anew || gap || nodes_.inverse_mass[n] == 0) continue;
       nodes_.acceleration[n] =
           (nodes_.velocity[n] - before - nodes_.inverse_mass[n] * contacts_[k]->given()[i]) / dt;
     }

@@ -47,7 +47,8 @@ class Layers {
   FeatureSearch search_;
   CollisionNet net_{0};
   std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
-  bool found_ = false;  ///< pairs, at these levels
+  std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
+  bool found_ = false;          ///< pairs, at these levels
   bool may_be_tangled_ = true;
   int tangled_ = 0;
 };

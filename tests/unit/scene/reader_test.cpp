@@ -1,5 +1,6 @@
 // Fields arrive where they belong; what is left out has the defaults of cloth/description.h.
 #include <cmath>
+#include <limits>
 
 #include "fixtures.h"
 
@@ -71,6 +72,17 @@ TEST(Reader, ClothFields) {
   EXPECT_TRUE(is(cloth.pins[2], 0.25, 0.25, 0.75, 0.75));
   EXPECT_TRUE(is(cloth.pins[3], 0.25, 0.5, 0, 1));
   EXPECT_TRUE(scene.simulation.cloths[1].orientation.isApprox(Quaternion::Identity()));
+}
+
+TEST(Reader, Relevance) {
+  const auto cloths = read_good("everything").simulation.cloths;
+  EXPECT_EQ(cloths.at(0).relevance.unseen, Relevance::Unseen::step);
+  EXPECT_EQ(cloths.at(0).relevance.far, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(cloths.at(1).relevance.unseen, Relevance::Unseen::sleep);
+  EXPECT_EQ(cloths.at(1).relevance.far, 25);
+  EXPECT_EQ(cloths.at(2).relevance.unseen, Relevance::Unseen::coarse);
+  const Scene scene = good(parse(R"({"cloths":[{"relevance":{"unseen":"step"}}]})", "step"));
+  EXPECT_EQ(scene.simulation.cloths.at(0).relevance.unseen, Relevance::Unseen::step);
 }
 
 TEST(Reader, MaterialsByNameByNameWithChangesAndRaw) {
