@@ -154,15 +154,14 @@ void mend_split(const TornLinks& torn, const Vec2& spacing, Particles<Real>& fin
 template <class Real>
 void merge_torn_momentum(const Particles<Real>& fine, const TornLinks& torn, Particles<Real>& coarse) {
   const Grid& grid = fine.grid();
-  const auto nodes = static_cast<std::size_t>(coarse.grid().nodes());
-  std::vector<Vec3> momentum(nodes, Vec3::Zero());
-  std::vector<double> mass(nodes, 0.0);
+  std::vector<Vec3> momentum(coarse.grid().size(), Vec3::Zero());
+  std::vector<double> mass(coarse.grid().size(), 0.0);
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.cols; ++c) {
       const Parents parents = parents_of(torn, {r, c});
       for (std::size_t i = 0; i < parents.place.size(); ++i) {
         const Place& to = parents.place[i];
-        const auto node = static_cast<std::size_t>(to.row * coarse.grid().cols + to.col);
+        const std::size_t node = coarse.grid().index(to.row, to.col);
         const double share = parents.share[i] * double(fine.mass.at(r, c));
         momentum[node] += share * fine.velocity_at(r, c);
         mass[node] += share;
@@ -171,7 +170,7 @@ void merge_torn_momentum(const Particles<Real>& fine, const TornLinks& torn, Par
   }
   for (int r = 0; r < coarse.grid().rows; ++r) {
     for (int c = 0; c < coarse.grid().cols; ++c) {
-      const auto node = static_cast<std::size_t>(r * coarse.grid().cols + c);
+      const std::size_t node = coarse.grid().index(r, c);
       set(coarse.velocity, {r, c}, momentum[node] / mass[node]);
     }
   }

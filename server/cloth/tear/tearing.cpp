@@ -63,7 +63,7 @@ LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& posi
       below.rising[c] = inside ? Vec3(-rising.force(position, r, col + 1)) : Vec3(Vec3::Zero());
     }
     for (int c = 0; c < grid.cols; ++c) {
-      const auto node = static_cast<std::size_t>(r * grid.cols + c), cell = static_cast<std::size_t>(c);
+      const std::size_t node = loads.index(r, c), cell = static_cast<std::size_t>(c);
       // What pulls the node's side of the link towards the other one.
       if (c + 1 < grid.cols && !springs.torn(*along_u.family, r, c)) {
         Vec3 pull = along_u.force(position, r, c);
@@ -93,7 +93,7 @@ class Loaded {
   double of(const Link& link) const {
     const Grid& grid = loads_.grid;
     if (link.row < 0 || link.col < 0 || link.row >= grid.rows || link.col >= grid.cols) return 0;
-    return (link.along_u ? loads_.u : loads_.v)[static_cast<std::size_t>(link.row * grid.cols + link.col)];
+    return (link.along_u ? loads_.u : loads_.v)[loads_.index(link.row, link.col)];
   }
   /// Calls visit(link, load) for every link that bears more than its strength.
   template <class Visit>

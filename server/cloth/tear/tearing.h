@@ -17,6 +17,11 @@ inline constexpr double kOverload = 2;
 struct LinkLoads {
   Grid grid;
   std::vector<double> u, v;  ///< by node, row * cols + col, of its link to the next column, or row
+
+  std::size_t index(int row, int col) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.cols) +
+           static_cast<std::size_t>(col);
+  }
 };
 template <class Real>
 LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& position,

@@ -40,7 +40,9 @@ class TornLinks {
   std::vector<std::uint32_t> torn_faces() const;
 
  private:
-  std::size_t at(int r, int c) const { return static_cast<std::size_t>(r * grid_.cols + c); }
+  std::size_t at(int r, int c) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.cols) + static_cast<std::size_t>(c);
+  }
   int u(int r, int c) const { return u_[at(r, c)]; }
   int v(int r, int c) const { return v_[at(r, c)]; }
 
