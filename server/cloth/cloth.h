@@ -7,6 +7,7 @@
 #include "cloth/settle.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
+#include "cloth/tear/walls.h"
 #include "cloth/wind/node_air.h"
 
 namespace weft {
@@ -29,6 +30,8 @@ class Cloth {
   const Plate<Real>* plate() const { return plate_ ? &*plate_ : nullptr; }
   /// J, of springs and plate.
   double elastic_energy() const;
+  /// nullptr while the cloth is whole.
+  const Walls* walls() const { return walls_ ? &*walls_ : nullptr; }
   double total_mass() const { return total_mass_; }  ///< kg; the same at every level
   ContactCounters contact_counters() const;
 
@@ -97,9 +100,16 @@ class Cloth {
   /// Takes what the effects say to itself; their objects are the caller's to make.
   void compose(const std::vector<EffectDescription>& effects);
   void enter_level(int level, Particles<Real> particles);
+  /// A cell's width and height, m.
+  Vec2 cell(const Grid& grid) const {
+    return description_.size.cwiseQuotient(Vec2(grid.cols - 1, grid.rows - 1));
+  }
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
   void make_springs();
+  void take_over_walls();
+  /// Breaks what the step has loaded beyond its strength.
+  void tear();
   Contact<Real>& contact();
   void set_pins();
   AdvanceReport attempt(const Air& air, double time, double dt);
@@ -119,6 +129,10 @@ class Cloth {
   double damping_time_ = 0;     ///< s, of the springs (StrainDampingEffect)
   bool bends_plate_ = false;    ///< PlateBendingEffect is there
   bool limits_strain_ = false;  ///< StrainLimitEffect is there
+  std::optional<TearingEffect> tearing_;
+  std::optional<Walls> walls_;             ///< made by the first tear; stay if tearing_ goes
+  std::shared_ptr<const TornLinks> torn_;  ///< by the walls at this level; nullptr while the cloth is whole
+  std::vector<FaceRun> whole_faces_;       ///< of torn_
   Springs<Real> springs_;
   std::optional<Plate<Real>> plate_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;  ///< the description's, then what was added

@@ -88,9 +88,17 @@ struct InflationEffect {
   static constexpr const char* kName = "inflation";
 };
 
+/// Cloth tears where it is pulled too hard: a structural link breaks at the end of a step in which the sheet
+/// carries more tension across its middle, per metre of cloth, than this (tear/tearing.h).
+struct TearingEffect {
+  double warp = 1000;  ///< strength along u, N/m; finite, > 0
+  double weft = 1000;  ///< along v, N/m
+  static constexpr const char* kName = "tearing";
+};
+
 using EffectDescription =
     std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
-                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect>;
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect, TearingEffect>;
 
 // --- Things in the scene ---
 

@@ -53,6 +53,7 @@ class Vectors(unittest.TestCase):
                     for name in ("cloth", "level", "simulated_level", "rows", "cols", "quantum"):
                         self.assertEqual(getattr(cloth, name), wanted[name], name)
                     self.assertEqual(cloth.positions.tobytes().hex(), wanted["positions_f32"])
+                    self.assertEqual(cloth.torn, wanted["torn"])
                 balls = [weft.Ball(ball["ball"], tuple(ball["position"]), ball["radius"], ball["motion"]) for ball in expect["balls"]]
                 self.assertEqual(frame.balls, balls)
                 obstacles = [weft.MovedObstacle(each["obstacle"], tuple(each["position"]), tuple(each["quaternion"]))

@@ -121,7 +121,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_->slow = kSlow * extent(forces.springs->families(), grid);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
-  if (state_->h != h) {
+  const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
+  if (state_->h != h || tore) {
     state_->h = h;
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
   }

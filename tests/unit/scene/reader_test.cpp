@@ -168,6 +168,20 @@ TEST(Reader, PathsOfObstacles) {
   EXPECT_FALSE(plane.loop);
 }
 
+TEST(Reader, StrengthIsOneNumberOrTwo) {
+  const auto tearing = [](const char* strength) {
+    const std::string text =
+        std::string(R"({"cloths": [{}], "effects": [{"type": "tearing")") + strength + "}]}";
+    return std::get<TearingEffect>(good(parse(text, "torn")).simulation.effects.at(0));
+  };
+  EXPECT_EQ(tearing("").warp, 1000);
+  EXPECT_EQ(tearing("").weft, 1000);
+  EXPECT_EQ(tearing(R"(, "strength": 250)").warp, 250);
+  EXPECT_EQ(tearing(R"(, "strength": 250)").weft, 250);
+  EXPECT_EQ(tearing(R"(, "strength": [300, 200.5])").warp, 300);
+  EXPECT_EQ(tearing(R"(, "strength": [300, 200.5])").weft, 200.5);
+}
+
 TEST(Reader, EffectsWindAndStepping) {
   const SimulationDescription simulation = read_good("everything").simulation;
   ASSERT_EQ(simulation.effects.size(), 9u);
