@@ -10,7 +10,6 @@
 #include "cloth/clock.h"
 #include "cloth/random.h"
 #include "cloth/refine.h"
-#include "cloth/settle.h"
 #include "cloth/unfold.h"
 
 namespace weft {
@@ -147,8 +146,10 @@ bool Cloth<Real>::apply_pending_level() {
     enter_level(next, std::move(particles));
   }
   // The paper's own rules change levels as the paper does, an implicit step finds its balance by itself.
-  unsettled_ = unsettled_ || (changes && !is_implicit(guard_.method()) &&
-                              description_.discretization == Discretization::continuum);
+  if (changes && unsettled_ == Unsettled::no && !is_implicit(guard_.method()) &&
+      description_.discretization == Discretization::continuum) {
+    unsettled_ = Unsettled::by_level;
+  }
   return changes;
 }
 
@@ -286,11 +287,13 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
+  if (!solids.empty() && is_put_onto(particles_, contact(), solids)) unsettled_ = Unsettled::by_solid;
   if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
-  if (std::exchange(unsettled_, false)) {
-    settle(particles_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(), solids, dt);
-  }
   for (;;) {
+    if (unsettled_ != Unsettled::no) {
+      settle(particles_, unsettled_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(),
+             solids, dt);
+    }
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);
     const auto begin = Clock::now();
@@ -299,6 +302,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
       if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
       sleep_.stepped(guard_.speed(), dt, particles_, solids);
       time_ = time + dt;
+      unsettled_ = Unsettled::no;
       nodes_in_contact_ = report.nodes_in_contact;
       report.check_seconds = seconds(Clock::now() - begin);
       return report;

@@ -4,6 +4,7 @@
 #include "cloth/colliders.h"
 #include "cloth/effects/grab.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/settle.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
 #include "cloth/wind/node_air.h"
@@ -104,8 +105,8 @@ class Cloth {
   double total_mass_ = 0;
   int level_ = 0;
   std::optional<int> pending_level_;
-  bool unsettled_ = false;  ///< to be settled before the next step
-  bool begins_ = false;     ///< where its description has put it, which no step has seen
+  Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
+  bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;             ///< s, at the end of the last step that was made
