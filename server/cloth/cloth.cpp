@@ -12,6 +12,7 @@
 #include "cloth/refine.h"
 #include "cloth/tear/mend.h"
 #include "cloth/tear/tearing.h"
+#include "cloth/unfold.h"
 
 namespace weft {
 namespace {
@@ -89,6 +90,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
                 [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
   enter_level(level, std::move(particles));
   perturb(description_, seed, particles_);
+  begins_ = !description_.nodes.empty();
   hand_to_guard();
 }
 
@@ -128,6 +130,10 @@ void Cloth<Real>::request_level(int level) {
 
 template <class Real>
 bool Cloth<Real>::apply_pending_level() {
+  if (std::exchange(begins_, false) && is_tangled(particles_, springs_)) {
+    unfold(particles_, description_, level_);
+    hand_to_guard();
+  }
   const int target = pending_level_.value_or(level_);
   pending_level_.reset();
   const bool changes = target != level_;

@@ -123,6 +123,7 @@ class Cloth {
   int level_ = 0;
   std::optional<int> pending_level_;
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
+  bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;             ///< s, at the end of the last step that was made
