@@ -8,9 +8,6 @@
 namespace weft {
 namespace {
 
-/// Crossing edges are held apart by this part of the thickness: between layers that lie flat on each other
-/// the nodes alone do it.
-constexpr double kEdgePart = 0.5;
 /// Nearer features may have passed through each other by rounding, m.
 constexpr double kTouching = 1e-6;
 /// The net keeps features apart by this part.
@@ -57,7 +54,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   net_ = CollisionNet(kNetPart * least);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     contacts_.push_back(std::make_unique<LayerContacts<Real>>(
-        nodes_, i, LayerParameters{parameters_.thickness, parameters_.friction}));
+        nodes_, grids[i], i, LayerParameters{gaps_[i], net_.gap(), parameters_.friction}));
     cloths[i].set_layers(contacts_.back().get());
   }
   may_be_tangled_ = true;
@@ -135,19 +132,6 @@ std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
 }
 
 template <class Real>
-Vec3 Layers<Real>::sheet_normal(std::uint32_t node) const {
-  const std::size_t sheet = sheet_of(node);
-  const Grid& grid = grids_[sheet];
-  const auto i = static_cast<int>(node - nodes_.first[sheet]);
-  const int r = i / grid.stride, c = i % grid.stride;
-  const auto x = [&](int row, int col) -> const Vec3& {
-    return nodes_.start[nodes_.first[sheet] +
-                        grid.index(std::clamp(row, 0, grid.rows - 1), std::clamp(col, 0, grid.cols - 1))];
-  };
-  return (x(r + 1, c) - x(r - 1, c)).cross(x(r, c + 1) - x(r, c - 1));
-}
-
-template <class Real>
 void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   const double drop = standard_gravity().norm() * dt * dt;
   std::vector<LayerPair> edges;
@@ -182,7 +166,8 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
       edges.push_back(pair);
       continue;
     }
-    pair.side = sheet_normal(features.node[0]).dot(pair.normal) > 0 ? 1 : 0;
+    pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
+                              features.node[0] - nodes_.first[one], pair.normal);
     int& slot = nearest[2 * std::size_t{features.node[0]} + static_cast<std::size_t>(pair.side)];
     if (slot < 0) {
       slot = static_cast<int>(found.size());

@@ -38,7 +38,6 @@ class Layers {
   void find_tangles();
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   std::size_t sheet_of(std::uint32_t node) const;
-  Vec3 sheet_normal(std::uint32_t node) const;
 
   ClothContactEffect parameters_;
   std::vector<Grid> grids_;
