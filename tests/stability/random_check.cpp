@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/contact/triangle_mesh.h"
+#include "cloth/effects/grab.h"
 #include "criteria.h"
 #include "random_scenes.h"
+#include "random_surroundings.h"
 
 namespace weft::stability {
 namespace {
@@ -21,14 +24,63 @@ double work_of_force(double force, double mass, double speed) {
   return force * (speed * kSeconds + force / mass * kSeconds * kSeconds / 2);
 }
 
-/// Upper bound of what wind and balls can do on the cloth in the time, J. Generous: it parts what is bounded
-/// from what runs away.
+/// What the body's motion and its start within the cloth bring, J.
+double work_of_body(const SimulationDescription& scene, double radius, double fastest) {
+  const ClothDescription& cloth = scene.cloths[0];
+  const Material& material = cloth.material;
+  const double area = cloth.size.x() * cloth.size.y(), mass = material.density * area;
+  const Grid grid = cloth.base_cells.at(cloth.max_level);
+  const double spacing = std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1));
+  const double stiffness = material.structural + material.shear + 4 * material.bending;
+  // Nodes inside are put on its surface at once; others may fly off at twice its speed, or be pulled along.
+  const double stretch = (radius + std::min(fastest * kSeconds, 10 * cloth.size.maxCoeff())) / spacing;
+  return mass * 4 * fastest * fastest / 2 + stiffness * area * stretch * stretch;
+}
+
+/// Of a path's points at those times, m/s.
+template <class Point, class Distance>
+double fastest_of(const std::vector<Point>& path, Distance distance) {
+  double fastest = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    fastest = std::max(fastest, distance(path[i - 1], path[i]) / (path[i].time - path[i - 1].time));
+  return fastest;
+}
+
+double work_of_ball(const SimulationDescription& scene, const BallDescription& ball) {
+  const double on_path = fastest_of(
+      ball.path, [](const Waypoint& a, const Waypoint& b) { return (b.position - a.position).norm(); });
+  return work_of_body(scene, ball.radius, std::max(ball.velocity.norm(), on_path));
+}
+
+/// Of the smallest ball around its centre that holds it, m; a plane's none: it stands, and not in the cloth.
+struct OuterRadius {
+  double operator()(const PlaneDescription&) const { return 0; }
+  double operator()(const BoxDescription& box) const { return box.size.norm() / 2; }
+  double operator()(const CapsuleDescription& capsule) const { return capsule.length / 2 + capsule.radius; }
+  double operator()(const MeshDescription& mesh) const { return mesh.surface->outer_radius(); }
+};
+
+double work_of_obstacle(const SimulationDescription& scene, const ObstacleDescription& obstacle) {
+  const double radius = std::visit(OuterRadius{}, obstacle.shape);
+  const double fastest = fastest_of(obstacle.path, [=](const PoseWaypoint& a, const PoseWaypoint& b) {
+    return (b.pose.position - a.pose.position).norm() +
+           radius * a.pose.orientation.angularDistance(b.pose.orientation);
+  });
+  return work_of_body(scene, radius, fastest);
+}
+
+/// Of the wind's speed; gusts and eddies are of a normal distribution, in three components.
+double strongest_wind(const Wind& wind) {
+  return wind.speed * (1 + 5 * (wind.gusts.intensity + std::sqrt(3.0) * wind.turbulence.intensity));
+}
+
+/// Upper bound of what wind, bodies, pressure and the hand can do on the cloth in the time, J. Generous: it
+/// parts what is bounded from what runs away.
 double input(const SimulationDescription& scene) {
   const ClothDescription& cloth = scene.cloths[0];
   const double area = cloth.size.x() * cloth.size.y(), mass = cloth.material.density * area;
   const Grid grid = cloth.base_cells.at(cloth.max_level);
-  const double spacing = std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1));
-  const double speed = cloth.velocity.norm(), wind = scene.wind.speed;
+  const double speed = cloth.velocity.norm(), wind = strongest_wind(scene.wind);
   double work = 0;
   for (const EffectDescription& effect : scene.effects) {
     if (const auto* air = std::get_if<AerodynamicsEffect>(&effect)) {
@@ -36,41 +88,88 @@ double input(const SimulationDescription& scene) {
     } else if (const auto* steady = std::get_if<PaperWindEffect>(&effect)) {
       const double pushed = cloth.discretization == Discretization::paper ? grid.nodes() : area;
       work += work_of_force(steady->factor * wind * pushed, mass, speed);
+    } else if (const auto* inflation = std::get_if<InflationEffect>(&effect)) {
+      work += work_of_force(std::abs(inflation->pressure) * area, mass, speed);
+    } else if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
+      // Layers put apart by the thickness within one step.
+      const double apart = contact->thickness / scene.time_step;
+      work += mass * apart * apart / 2;
     }
   }
-  const double stiffness = cloth.material.structural + cloth.material.shear + 4 * cloth.material.bending;
-  for (const BallDescription& each : scene.balls) {
-    double fastest = each.velocity.norm(), way = fastest * kSeconds;
-    for (std::size_t i = 1; i < each.path.size(); ++i) {
-      const double length = (each.path[i].position - each.path[i - 1].position).norm();
-      fastest = std::max(fastest, length / (each.path[i].time - each.path[i - 1].time));
-      way += length;
-    }
-    // Nodes inside are put on its surface at once; others may fly off at twice its speed, or be pulled along.
-    const double stretch = (each.radius + std::min(way, 10 * cloth.size.maxCoeff())) / spacing;
-    work += mass * 4 * fastest * fastest / 2 + stiffness * area * stretch * stretch;
-  }
+  for (const BallDescription& each : scene.balls) work += work_of_ball(scene, each);
+  for (const ObstacleDescription& each : scene.obstacles) work += work_of_obstacle(scene, each);
+  // What it holds goes with it, and may be thrown the sheet's length past it.
+  if (const auto hand = hand_of(scene)) work += hand->force * 2 * (hand->way.norm() + cloth.size.norm());
   return work;
 }
+
+/// What is done to a scene while it runs, by its seed.
+class Commands {
+ public:
+  explicit Commands(Simulation<float>& simulation)
+      : simulation_(simulation),
+        scene_(simulation.description()),
+        hand_(hand_of(scene_)),
+        kept_(kept_effects(scene_)) {}
+
+  /// Before a step. True if effects were switched: energies before and after are not of one system.
+  bool give(long step) {
+    change_level(step);
+    move_hand(step);
+    if (kept_ && step == step_at(kSwitchesOff)) simulation_.set_effects(*kept_);
+    if (kept_ && step == step_at(kSwitchesOn)) simulation_.set_effects(scene_.effects);
+    return kept_ && (step == step_at(kSwitchesOff) || step == step_at(kSwitchesOn));
+  }
+
+ private:
+  long step_at(double time) const { return std::lround(time / scene_.time_step); }
+
+  /// Up and down through the cloth's levels.
+  void change_level(long step) {
+    const ClothDescription& cloth = scene_.cloths[0];
+    const int levels = cloth.max_level - cloth.min_level;
+    const auto period = static_cast<long>(1 + scene_.seed % 16);
+    if (levels == 0 || step % period != 0) return;
+    const long turn = step / period % (2 * levels);
+    simulation_.request_level(0, cloth.min_level + static_cast<int>(std::min(turn, 2 * levels - turn)));
+  }
+
+  void move_hand(long step) {
+    if (!hand_) return;
+    const long begin = step_at(kGrabs), end = step_at(kReleases);
+    if (step == begin) {
+      from_ = Grabs<float>::place(simulation_.cloths()[0].particles(), scene_.cloths[0], hand_->at);
+      grab_ = simulation_.grab(0, hand_->at, from_, hand_->force);
+    } else if (step == end) {
+      simulation_.release(grab_);
+    } else if (step > begin && step < end) {
+      const double share = static_cast<double>(step - begin) / static_cast<double>(end - begin);
+      simulation_.move_grab(grab_, from_ + share * hand_->way);
+    }
+  }
+
+  Simulation<float>& simulation_;
+  const SimulationDescription& scene_;
+  std::optional<Hand> hand_;
+  std::optional<std::vector<EffectDescription>> kept_;
+  Vec3 from_{0, 0, 0};
+  GrabId grab_ = 0;
+};
 
 }  // namespace
 
 Complaint check(const SimulationDescription& scene) {
   const Setup setup{method_of(scene.integrator), 0, 0};
   Simulation<float> simulation(scene);
-  const EnergyBound bound = energy_bound(simulation, setup, input(scene));
-  const ClothDescription& cloth = scene.cloths[0];
-  const int levels = cloth.max_level - cloth.min_level;
-  const auto period = static_cast<long>(1 + scene.seed % 16);
+  EnergyBound bound = energy_bound(simulation, setup, input(scene));
+  Commands commands(simulation);
   const long steps = std::lround(kSeconds / scene.time_step);
   for (long step = 0; step < steps; ++step) {
-    if (levels > 0 && step % period == 0) {
-      const long turn = step / period % (2 * levels);
-      simulation.request_level(0, cloth.min_level + static_cast<int>(std::min(turn, 2 * levels - turn)));
-    }
+    const bool switched = commands.give(step);
     simulation.step();
     const std::string when = " after step " + std::to_string(step + 1);
     if (!simulation.healthy()) return "not finite" + when;
+    if (switched) bound = energy_bound(simulation, setup, input(scene));
     const double rise = read(simulation, setup.method != Method::xpbd).energy - bound.start;
     if (!(rise <= bound.allowed)) {
       return "energy " + std::to_string(rise) + " J above the start's, allowed " +

@@ -1,41 +1,12 @@
 #include "random_scenes.h"
 
-#include <cmath>
-#include <random>
-
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/refine.h"
+#include "draw.h"
+#include "random_surroundings.h"
 
 namespace weft::stability {
 namespace {
-
-/// Draws whose values the standard fixes: from the generator's bits, not through its distributions.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
-  }
-  /// Every decade as likely as the other.
-  double decades(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  bool chance(double share) { return between(0, 1) < share; }
-  int integer(int low, int high) {  // both included
-    return low + static_cast<int>(random_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  Vec3 in_box(double half) {
-    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
-    return {x, y, z};
-  }
-  Vec3 direction() {
-    Vec3 drawn = in_box(1);
-    while (drawn.norm() < 0.1 || drawn.norm() > 1) drawn = in_box(1);
-    return drawn.normalized();
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 Material draw_material(Draw& draw, Discretization discretization) {
   Material material;
@@ -148,6 +119,8 @@ SimulationDescription random_scene(std::uint64_t seed, int max_level) {
   scene.wind = {draw.direction(), draw.chance(0.2) ? 100.0 : draw.between(0, 30)};
   scene.time_step = draw.chance(0.4) ? 1.0 / 60 : draw.decades(1.0 / 240, 0.1);
   scene.integrator = draw_integrator(draw, scene);
+  // Drawn apart, so that the other half of the scenes is what it would be without.
+  if (Draw more(~seed); more.chance(0.5)) add_surroundings(more, scene);
   return scene;
 }
 

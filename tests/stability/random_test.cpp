@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "open_failures.h"
 #include "random_scenes.h"
+#include "random_surroundings.h"
 #include "scene/scene.h"
 #include "scene_json.h"
 
@@ -47,6 +49,29 @@ TEST(RandomScene, IsTheSameForTheSameSeed) {
   EXPECT_NE(scene_json(random_scene(7, 4)), scene_json(random_scene(8, 4)));
 }
 
+// What a new effect or shape adds to its variant is missed here until it is drawn.
+TEST(RandomScene, HundredSeedsHaveEverything) {
+  std::set<std::size_t> effects, shapes, integrators;
+  int paths = 0, gusts = 0, eddies = 0, hands = 0, switches = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const SimulationDescription drawn = random_scene(seed, 4);
+    for (const EffectDescription& each : drawn.effects) effects.insert(each.index());
+    for (const ObstacleDescription& each : drawn.obstacles) {
+      shapes.insert(each.shape.index());
+      paths += !each.path.empty();
+    }
+    integrators.insert(drawn.integrator.index());
+    gusts += drawn.wind.gusts.intensity > 0;
+    eddies += drawn.wind.turbulence.intensity > 0;
+    hands += hand_of(drawn).has_value();
+    switches += kept_effects(drawn).has_value();
+  }
+  EXPECT_EQ(effects.size(), std::variant_size_v<EffectDescription>);
+  EXPECT_EQ(shapes.size(), std::variant_size_v<decltype(ObstacleDescription::shape)>);
+  EXPECT_EQ(integrators.size(), std::variant_size_v<IntegratorDescription>);
+  for (const int drawn : {paths, gusts, eddies, hands, switches}) EXPECT_GT(drawn, 5);
+}
+
 TEST(RandomScene, IsASceneFile) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const SimulationDescription drawn = random_scene(seed, 4);
@@ -57,6 +82,7 @@ TEST(RandomScene, IsASceneFile) {
       // Read back it is the same scene, to the rounding of a quaternion and a direction made unit again.
       const SimulationDescription& again = std::get<scene::Scene>(read).simulation;
       EXPECT_EQ(again.balls.size(), drawn.balls.size());
+      EXPECT_EQ(again.obstacles.size(), drawn.obstacles.size());
       EXPECT_EQ(scene_json(again)["cloths"][0]["material"], scene_json(drawn)["cloths"][0]["material"]);
       EXPECT_EQ(scene_json(again)["integrator"], scene_json(drawn)["integrator"]);
       EXPECT_EQ(scene_json(again)["effects"], scene_json(drawn)["effects"]);

@@ -144,14 +144,27 @@ json scene_json(const SimulationDescription& scene) {
   for (const BallDescription& ball : scene.balls) made["colliders"].push_back(json_of(ball));
   for (const ObstacleDescription& each : scene.obstacles) {
     json obstacle = typed<ShapeWriter>(each.shape);
-    obstacle["position"] = json_of(each.position);
     obstacle["friction"] = each.friction;
+    if (each.path.empty()) obstacle["position"] = json_of(each.position);
+    for (const PoseWaypoint& point : each.path) {
+      const Quaternion& turn = point.pose.orientation;
+      obstacle["path"].push_back(
+          {{"time", point.time},
+           {"position", json_of(point.pose.position)},
+           {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}});
+    }
     made["colliders"].push_back(std::move(obstacle));
   }
   for (const EffectDescription& effect : scene.effects) {
     made["effects"].push_back(typed<EffectWriter>(effect));
     if (reads_wind(effect)) {
-      made["wind"] = {{"direction", json_of(scene.wind.direction)}, {"speed", scene.wind.speed}};
+      const Wind& wind = scene.wind;
+      made["wind"] = {
+          {"direction", json_of(wind.direction)},
+          {"speed", wind.speed},
+          {"gusts", {{"intensity", wind.gusts.intensity}, {"time_scale", wind.gusts.time_scale}}},
+          {"turbulence",
+           {{"intensity", wind.turbulence.intensity}, {"length_scale", wind.turbulence.length_scale}}}};
     }
   }
   return made;

@@ -24,6 +24,7 @@ Scenes simpler_than(const SimulationDescription& scene) {
     }
   };
   without(&SimulationDescription::balls);
+  without(&SimulationDescription::obstacles);
   without(&SimulationDescription::effects);
   const auto cloth = [&](auto change) { with(simpler, scene, [&](auto& s) { change(s.cloths[0]); }); };
   for (std::size_t i = 0; i < scene.cloths[0].pins.size(); ++i) {
@@ -44,12 +45,20 @@ Scenes simpler_than(const SimulationDescription& scene) {
                                      &Material::bending, &Material::damping}) {
     cloth([&](auto& c) { c.material.*constant = plain.material.*constant; });
   }
+  cloth([&](auto& c) { c.material.rigidity = plain.material.rigidity; });
+  cloth([&](auto& c) { c.material.limit = plain.material.limit; });
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    with(simpler, scene, [&](auto& s) { s.obstacles[i].path.clear(); });
+    with(simpler, scene, [&](auto& s) { s.obstacles[i].friction = 0; });
+  }
   for (std::size_t i = 0; i < scene.balls.size(); ++i) {
     with(simpler, scene, [&](auto& s) { s.balls[i].path.clear(); });
     with(simpler, scene, [&](auto& s) { s.balls[i].friction = 0; });
     with(simpler, scene, [&](auto& s) { s.balls[i].velocity.setZero(); });
   }
   with(simpler, scene, [](auto& s) { s.wind = Wind{}; });
+  with(simpler, scene, [](auto& s) { s.wind.gusts = {}; });
+  with(simpler, scene, [](auto& s) { s.wind.turbulence = {}; });
   with(simpler, scene, [](auto& s) { s.time_step = 1.0 / 60; });
   with(simpler, scene, [](auto& s) { s.seed = 1; });
   return simpler;

@@ -16,11 +16,11 @@
 namespace weft {
 namespace {
 
-using Bounds = Eigen::AlignedBox3d;
+using AlignedBox = Eigen::AlignedBox3d;
 
 /// By how much the boxes in the trees are larger than what they hold, relative to the largest tile: a cloth
 /// moving at 5 m/s in substeps of 0.1 ms is fitted anew every tenth of them, one at rest never.
-constexpr double kMargin = 1.0 / 32;
+constexpr double kTileMargin = 1.0 / 32;
 
 /// Beyond the boxes at its two ends, m: points of a solid that turns go along arcs, not chords.
 double bulge(const Solid& solid, const Sweep& sweep) {
@@ -29,7 +29,7 @@ double bulge(const Solid& solid, const Sweep& sweep) {
   return outer_radius(solid.shape) * (angle < std::numbers::pi ? 1 - std::cos(angle / 2) : 2);
 }
 
-Bounds grown(const Bounds& box, double by) {
+AlignedBox grown(const AlignedBox& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
@@ -42,7 +42,7 @@ class TreeBox {
   TreeBox(const TreeBox&) = delete;  // FCL keeps pointers to the object and to its user data.
   TreeBox& operator=(const TreeBox&) = delete;
 
-  void set(const Bounds& box) {
+  void set(const AlignedBox& box) {
     shape_->side = box.sizes();
     shape_->computeLocalAABB();
     object_.setTranslation(box.center());
@@ -67,7 +67,7 @@ class Tree {
     registered_ = false;
     for (std::size_t i = 0; i < count; ++i) boxes_.push_back(std::make_unique<TreeBox>(static_cast<int>(i)));
   }
-  void set(std::size_t i, const Bounds& box) { boxes_[i]->set(box); }
+  void set(std::size_t i, const AlignedBox& box) { boxes_[i]->set(box); }
   /// Fits the tree to the boxes; it is built when they first have their places, which makes it a good one.
   void update() {
     if (registered_) {
@@ -108,10 +108,10 @@ std::vector<Tile> tiles_of(const Grid& grid) {
 }
 
 template <class Real>
-Bounds box_of(const Tile& tile, const VectorField<Real>& position) {
+AlignedBox box_of(const Tile& tile, const VectorField<Real>& position) {
   const int rows = tile.row_end - tile.row_begin, cols = tile.col_end - tile.col_begin;
   std::array<Real, kTileCells + 1> low{}, high{};  // of each column
-  Bounds box;
+  AlignedBox box;
   int axis = 0;
   for (const Field<Real>* field : {&position.x, &position.y, &position.z}) {
     kernels::column_extents(field->row(tile.row_begin) + tile.col_begin, rows, field->grid().stride, cols,
@@ -160,15 +160,15 @@ struct BroadPhase<Real>::Impl {
 
   bool fit_tiles(const VectorField<Real>& position) {
     fitted_positions = VectorField<Real>();
-    std::vector<Bounds> boxes;
+    std::vector<AlignedBox> boxes;
     double largest = 0;
     for (const Tile& tile : tiles) {
-      const Bounds box = box_of(tile, position);
+      const AlignedBox box = box_of(tile, position);
       if (!box.min().allFinite() || !box.max().allFinite()) return false;
       largest = std::max(largest, box.sizes().maxCoeff());
       boxes.push_back(box);
     }
-    margin = kMargin * largest;
+    margin = kTileMargin * largest;
     for (std::size_t i = 0; i < boxes.size(); ++i) tile_tree.set(i, grown(boxes[i], margin));
     tile_tree.update();
     fitted_positions = position;
@@ -177,7 +177,7 @@ struct BroadPhase<Real>::Impl {
 
   void place_solids(const std::vector<Solid>& solids, const Sweep& sweep) {
     const std::size_t bounded_before = bounded.size(), half_spaces_before = half_spaces.size();
-    solid_boxes.assign(solids.size(), Bounds());
+    solid_boxes.assign(solids.size(), AlignedBox());
     bounded.clear();
     half_spaces.clear();
     for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -204,7 +204,7 @@ struct BroadPhase<Real>::Impl {
   bool fit_solids() {
     fitted_solids.clear();
     solid_tree.resize(bounded.size());
-    std::vector<Bounds> fitted(solid_boxes.size());
+    std::vector<AlignedBox> fitted(solid_boxes.size());
     for (std::size_t i = 0; i < bounded.size(); ++i) {
       const auto solid = static_cast<std::size_t>(bounded[i]);
       if (!solid_boxes[solid].min().allFinite() || !solid_boxes[solid].max().allFinite()) return false;
@@ -218,7 +218,7 @@ struct BroadPhase<Real>::Impl {
 
   /// Those of the candidates that overlap without the margin.
   void select(const VectorField<Real>& position) {
-    Bounds tile_box;
+    AlignedBox tile_box;
     int boxed = -1;
     for (const TileSolidPair& pair : candidates) {
       if (pair.tile != boxed) {
@@ -229,7 +229,7 @@ struct BroadPhase<Real>::Impl {
     }
   }
 
-  bool overlaps(const Bounds& tile, int solid) const {
+  bool overlaps(const AlignedBox& tile, int solid) const {
     const auto half_space = std::find_if(half_spaces.begin(), half_spaces.end(),
                                          [&](const HalfSpaceBelow& h) { return h.solid == solid; });
     if (half_space == half_spaces.end()) return tile.intersects(solid_boxes[static_cast<std::size_t>(solid)]);
@@ -247,12 +247,12 @@ struct BroadPhase<Real>::Impl {
 
   std::vector<Tile> tiles;
   Tree tile_tree, solid_tree;
-  VectorField<Real> fitted_positions;  ///< of the nodes, when the tiles' solid_boxes were fitted to them
-  double margin = 0;                   ///< by which the trees' solid_boxes are larger on each side, m
-  std::vector<Bounds> solid_boxes;     ///< of the solids on their ways, by solid
-  std::vector<int> bounded;            ///< solids in the tree
+  VectorField<Real> fitted_positions;   ///< of the nodes, when the tiles' solid_boxes were fitted to them
+  double margin = 0;                    ///< by which the trees' solid_boxes are larger on each side, m
+  std::vector<AlignedBox> solid_boxes;  ///< of the solids on their ways, by solid
+  std::vector<int> bounded;             ///< solids in the tree
   std::vector<HalfSpaceBelow> half_spaces;
-  std::vector<Bounds> fitted_solids;      ///< the tree's solid_boxes, by solid
+  std::vector<AlignedBox> fitted_solids;  ///< the tree's solid_boxes, by solid
   std::vector<TileSolidPair> candidates;  ///< whose solid_boxes in the trees overlap
   std::vector<TileSolidPair> pairs;
 };

@@ -1,0 +1,112 @@
+#include "random_surroundings.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "cloth/contact/triangle_mesh.h"
+
+namespace weft::stability {
+namespace {
+
+Quaternion draw_turn(Draw& draw) {
+  const double angle = draw.between(0, 3.1);
+  return Quaternion(Eigen::AngleAxisd(angle, draw.direction()));
+}
+
+/// An octahedron pulled along its axes: corners from blunt to needle sharp.
+MeshDescription draw_mesh(Draw& draw, double size) {
+  TriangleList list;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {1, -1})
+      list.vertices.push_back(side * size * draw.between(0.2, 1) * Vec3::Unit(axis));
+  }
+  list.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return {.surface = std::make_shared<const TriangleMesh>(list), .orientation = draw_turn(draw)};
+}
+
+ObstacleDescription draw_obstacle(Draw& draw, const ClothDescription& cloth) {
+  const double reach = cloth.size.maxCoeff(), size = reach * draw.decades(0.05, 0.5);
+  ObstacleDescription obstacle;
+  obstacle.friction = draw.chance(0.3) ? 0 : draw.between(0, 2);
+  const int kind = draw.integer(0, 3);
+  if (kind == 0) {  // below the whole cloth
+    obstacle.shape = PlaneDescription{draw.direction()};
+    obstacle.position = cloth.position - 1.1 * reach * std::get<PlaneDescription>(obstacle.shape).normal;
+    return obstacle;
+  }
+  if (kind == 1) {
+    const double x = draw.between(0.1, 1), y = draw.between(0.1, 1), z = draw.between(0.1, 1);
+    obstacle.shape = BoxDescription{size * Vec3(x, y, z), draw_turn(draw)};
+  } else if (kind == 2) {
+    const double radius = size * draw.between(0.05, 0.5);
+    obstacle.shape = CapsuleDescription{radius, size, draw_turn(draw)};
+  } else {
+    obstacle.shape = draw_mesh(draw, size);
+  }
+  obstacle.position = cloth.position + draw.in_box(reach);
+  if (draw.chance(0.5)) {
+    for (const double time : {0.2, 0.8, 1.4}) {
+      const Vec3 position = cloth.position + draw.in_box(reach);
+      obstacle.path.push_back({time, {position, draw_turn(draw)}});
+    }
+  }
+  return obstacle;
+}
+
+/// Its own draw for each purpose, so that a scene shrunk is treated as the whole one was.
+Draw draw_for(const SimulationDescription& scene, std::uint64_t purpose) {
+  return Draw(scene.seed + (purpose << 32));
+}
+
+}  // namespace
+
+void add_surroundings(Draw& draw, SimulationDescription& scene) {
+  ClothDescription& cloth = scene.cloths[0];
+  Material& material = cloth.material;
+  for (int obstacles = draw.integer(0, 2); obstacles > 0; --obstacles)
+    scene.obstacles.push_back(draw_obstacle(draw, cloth));
+  if (draw.chance(0.5)) scene.wind.gusts = {draw.between(0, 0.5), draw.decades(0.05, 10)};
+  if (draw.chance(0.5)) scene.wind.turbulence = {draw.between(0, 0.5), draw.decades(0.05, 10)};
+  const auto add = [&](const EffectDescription& effect) { scene.effects.push_back(effect); };
+  if (draw.chance(0.3)) add(StrainDampingEffect{draw.decades(1e-5, 1e-2)});
+  if (draw.chance(0.3)) {
+    const double u = draw.decades(1e-7, 1e-2);
+    material.rigidity = {u, u * draw.decades(0.1, 10), u * draw.decades(0.1, 1)};
+    add(PlateBendingEffect{});
+  }
+  if (draw.chance(0.3)) {
+    const double warp = draw.decades(0.01, 0.3), weft = draw.decades(0.01, 0.3);
+    material.limit = {warp, weft, draw.between(0.05, 1), draw.decades(1, 50)};
+    add(StrainLimitEffect{});
+  }
+  if (draw.chance(0.5)) {
+    const double thickness = std::clamp(cloth.size.minCoeff() * draw.decades(1e-3, 0.03), 1e-4, 1.0);
+    add(ClothContactEffect{thickness, draw.between(0, 1)});
+  }
+  if (draw.chance(0.3)) {
+    const double pressure = material.density * draw.decades(1, 100);  // up to ten times the weight
+    add(InflationEffect{draw.chance(0.5) ? pressure : -pressure});
+  }
+}
+
+std::optional<Hand> hand_of(const SimulationDescription& scene) {
+  if ((scene.seed & 4) == 0) return {};
+  Draw draw = draw_for(scene, 1);
+  const ClothDescription& cloth = scene.cloths[0];
+  Hand hand;
+  hand.at.x() = draw.between(0, 1);
+  hand.at.y() = draw.between(0, 1);
+  hand.way = draw.in_box(2 * cloth.size.maxCoeff());
+  hand.force = cloth.material.density * cloth.size.prod() * draw.decades(1, 1000);
+  return hand;
+}
+
+std::optional<std::vector<EffectDescription>> kept_effects(const SimulationDescription& scene) {
+  if ((scene.seed & 2) == 0) return {};
+  Draw draw = draw_for(scene, 2);
+  std::vector<EffectDescription> kept = scene.effects;
+  std::erase_if(kept, [&](const EffectDescription&) { return draw.chance(0.5); });
+  return kept;
+}
+
+}  // namespace weft::stability
