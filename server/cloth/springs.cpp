@@ -208,12 +208,22 @@ void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Re
 }
 
 template <class Real>
-void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Components<const Real> change,
-                                double time, VectorField<Real>& force) const {
+void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Components<const Real> velocity,
+                                VectorField<Real>& force) const {
   if (damping_time_ == 0 || families_.empty()) return;
   const Grid& grid = position.grid();
   const auto add = torn_ ? kernels::add_torn_strain_damping<Real> : kernels::add_strain_damping<Real>;
-  add(lattice(grid), grid, kernels::components(position), change, static_cast<Real>(damping_time_ / time),
+  add(lattice(grid), grid, kernels::components(position), velocity, static_cast<Real>(damping_time_),
+      kernels::components(force), damping_work_.data());
+}
+
+template <class Real>
+void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Components<const Real> way,
+                                double time, VectorField<Real>& force) const {
+  if (damping_time_ == 0 || families_.empty()) return;
+  const Grid& grid = position.grid();
+  const auto add = torn_ ? kernels::add_torn_growth_damping<Real> : kernels::add_growth_damping<Real>;
+  add(lattice(grid), grid, kernels::components(position), way, static_cast<Real>(damping_time_ / time),
       kernels::components(force), damping_work_.data());
 }
 

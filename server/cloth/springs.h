@@ -54,9 +54,13 @@ class Springs {
   void add_forces(const VectorField<Real>& position, VectorField<Real>& force) const;
   double damping_time() const { return damping_time_; }  ///< s; 0: undamped
   bool limited() const { return limited_; }
-  /// Adds the damping of nodes that moved by `change` in `time` seconds, N: on end i of every spring
-  /// -tau k n (n . (change_i - change_j)) / time. Nothing where undamped.
-  void add_damping(const VectorField<Real>& position, kernels::Components<const Real> change, double time,
+  /// Adds the damping of nodes at this velocity, N: on end i of every spring -tau k n (n . (v_i - v_j)).
+  /// Nothing where undamped.
+  void add_damping(const VectorField<Real>& position, kernels::Components<const Real> velocity,
+                   VectorField<Real>& force) const;
+  /// The same of nodes that came to `position` by `way` in `time` seconds, by how much longer that has made
+  /// the springs: each turns on its way, and along where it ends a turn alone would look like a change.
+  void add_damping(const VectorField<Real>& position, kernels::Components<const Real> way, double time,
                    VectorField<Real>& force) const;
   /// Adds a damping by `time` of what the springs gain beyond their limits, N; the nodes move at `velocity`.
   void add_limit_damping(const VectorField<Real>& position, const VectorField<Real>& velocity, double time,

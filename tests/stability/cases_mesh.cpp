@@ -67,8 +67,37 @@ Case at_rest() {
   return made;
 }
 
+/// At rest on it, and then turned: rubbed along at the ball's widest by all of its weight, and going round
+/// itself, its corners spread, as fast as the ball.
+Case turning_under() {
+  constexpr double kLies = 3, kFirst = 0.25, kQuarter = 0.5;  // s
+  constexpr int kQuarters = 4;
+  const auto turning = [](const Setup& setup) {
+    SimulationDescription made = over_the_ball(setup);
+    for (int quarter = 0; quarter <= kQuarters; ++quarter) {
+      const Eigen::AngleAxisd turned(quarter * std::numbers::pi / 2, Vec3::UnitY());
+      made.obstacles[0].path.push_back({kFirst + quarter * kQuarter, {{0, 0, 0}, Quaternion(turned)}});
+    }
+    return made;
+  };
+  Case made{"S41b",
+            "the same ball turns once round under the resting drape: no energy but its work, at rest after",
+            {{kLies, over_the_ball}, {kFirst + kQuarters * kQuarter + 1, turning}}};
+  made.levels = {4};
+  made.expect = [](const Setup& setup) {
+    Expectation expect = rests(setup);
+    const SimulationDescription lying = over_the_ball(setup);
+    const double mass = mass_of(lying.cloths[0]), rate = std::numbers::pi / 2 / kQuarter;
+    const double corner = kSize / std::numbers::sqrt2;
+    const double rubbed = lying.obstacles[0].friction * mass * kGravity * rate * kRadius;  // W
+    expect.input = rubbed * kQuarters * kQuarter + mass * rate * rate * corner * corner / 2;
+    return expect;
+  };
+  return made;
+}
+
 }  // namespace
 
-std::vector<Case> mesh_cases() { return {at_rest()}; }
+std::vector<Case> mesh_cases() { return {at_rest(), turning_under()}; }
 
 }  // namespace weft::stability

@@ -155,8 +155,9 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
   const auto pinched = [&](const Constraint& a, const Constraint& b) {
     return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
   };
-  const auto moves_least = [](const Constraint& a, const Constraint& b) {
-    return a.solid_move.squaredNorm() < b.solid_move.squaredNorm();
+  // Of two that stand still the one it is less deep in: there it was held while the other came.
+  const auto moves_least = [&](const Constraint& a, const Constraint& b) {
+    return std::pair(a.solid_move.squaredNorm(), -room(a)) < std::pair(b.solid_move.squaredNorm(), -room(b));
   };
   std::vector<Constraint> kept;
   for (auto node = constraints_.begin(); node != constraints_.end();) {

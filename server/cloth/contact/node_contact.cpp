@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -38,7 +39,7 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
     }
     if (!moved || solids.size() == 1) return met;  // outside the only solid there is
   }
-  if (const std::optional<std::size_t> still = pinching(found, solids)) {
+  if (const std::optional<std::size_t> still = pinching(found, solids, came)) {
     touches.resize(touches_before);
     touches.push_back(touch(*solids[*still].solid));
     set_position(came);  // the solids have handed it to one another, sideways
@@ -60,17 +61,21 @@ void NodeContact<Real>::note(std::vector<Found>& found, std::size_t solid, const
   }
 }
 
-/// Of solids that face each other with the node between them the one that moves least; none if there are no
-/// such.
+/// Of solids that face each other with the node between them the one that moves least, of two that stand
+/// still the one it is less deep in where it `came`; none if there are no such.
 template <class Real>
 std::optional<std::size_t> NodeContact<Real>::pinching(const std::vector<Found>& found,
-                                                       const std::vector<MovingSolid>& solids) {
+                                                       const std::vector<MovingSolid>& solids,
+                                                       const Vec3& came) {
+  const auto move_and_depth = [&](std::size_t solid) {
+    return std::pair(solids[solid].move.squaredNorm(), -solids[solid].shape.surface(came).distance);
+  };
   std::optional<std::size_t> still;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t j = i + 1; j < found.size(); ++j) {
       if (found[i].normal.dot(found[j].normal) > kFacing) continue;
       for (const std::size_t each : {found[i].solid, found[j].solid}) {
-        if (!still || solids[each].move.squaredNorm() < solids[*still].move.squaredNorm()) still = each;
+        if (!still || move_and_depth(each) < move_and_depth(*still)) still = each;
       }
     }
   }

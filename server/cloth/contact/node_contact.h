@@ -80,7 +80,7 @@ class NodeContact {
   };
   static void note(std::vector<Found>& found, std::size_t solid, const Vec3& normal);
   static std::optional<std::size_t> pinching(const std::vector<Found>& found,
-                                             const std::vector<MovingSolid>& solids);
+                                             const std::vector<MovingSolid>& solids, const Vec3& came);
   void hold_at(MovingSolid& still);
   double lose_velocity(MovingSolid& moving, const Vec3& normal);
   void slide_back(const MovingSolid& moving, double share, double most);

@@ -90,7 +90,7 @@ void SymplecticEuler<Real>::add_damping(Particles<Real>& particles, const Forces
   // The update takes it from them again.
   forces.for_each_pin_way(forces.context.time, forces.context.time + h,
                           [&](std::size_t node, const Vec3& way) { add<Real>(velocity, node, way / h); });
-  forces.springs->add_damping(particles.position, velocity, 1, force_);
+  forces.springs->add_damping(particles.position, velocity, force_);
 }
 
 template class SymplecticEuler<float>;

@@ -15,9 +15,13 @@ struct Fields {
   Components<Real> work;  ///< a row: forces on the springs' first ends
 };
 
+/// What is damped: what the ends' velocities make of the length, the same of springs beyond their limits
+/// alone, or what the ends' ways to the position have made of it.
+enum class Damped { rate, rate_beyond_limits, growth };
+
 /// Springs of one family that begin in one row, at the columns [begin, end); `first` is where the row begins,
 /// `other` where their second ends lie from the first.
-template <class Real, bool kBeyondLimits>
+template <class Real, Damped kDamped>
 [[gnu::always_inline]] inline void add_row(const SpringColumns<Real>& springs, Real factor,
                                            const Fields<Real>& fields, std::ptrdiff_t first,
                                            std::ptrdiff_t other, int begin, int end) {
@@ -36,10 +40,17 @@ template <class Real, bool kBeyondLimits>
     const Real dx = x[c] - x[c + other], dy = y[c] - y[c + other], dz = z[c] - z[c + other];
     // Coincident ends have no direction: d is zero, and this keeps the factor before it finite.
     const Real squared = dx * dx + dy * dy + dz * dz + std::numeric_limits<Real>::min();
-    const Real rate =
-        dx * (ux[c] - ux[c + other]) + dy * (uy[c] - uy[c + other]) + dz * (uz[c] - uz[c + other]);
+    const Real wx = ux[c] - ux[c + other], wy = uy[c] - uy[c + other], wz = uz[c] - uz[c + other];
+    const Real rate = dx * wx + dy * wy + dz * wz;
     Real along = -factor * stiffness[c] * (rate / squared);
-    if constexpr (kBeyondLimits) {
+    if constexpr (kDamped == Damped::growth) {
+      // |d| - |d - w| without a difference of near equals.
+      const Real bx = dx - wx, by = dy - wy, bz = dz - wz, length = std::sqrt(squared);
+      const Real began = std::sqrt(bx * bx + by * by + bz * bz);
+      const Real growth = (2 * rate - (wx * wx + wy * wy + wz * wz)) / (length + began);
+      along = -factor * stiffness[c] * (growth / length);
+    }
+    if constexpr (kDamped == Damped::rate_beyond_limits) {
       const Real past = std::sqrt(squared) - limit_length;
       along *= unit_step(past, (past + std::abs(past)) / 2);
     }
@@ -61,7 +72,7 @@ template <class Real, bool kBeyondLimits>
   }
 }
 
-template <class Real, bool kBeyondLimits, bool kTorn>
+template <class Real, Damped kDamped, bool kTorn>
 [[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid, Real factor,
                                            const Fields<Real>& fields) {
   const std::ptrdiff_t stride = grid.stride;
@@ -70,17 +81,17 @@ template <class Real, bool kBeyondLimits, bool kTorn>
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share * factor : factor;
     const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
-    add_row<Real, kBeyondLimits>(own.along_u, share, fields, first, 1, 0, grid.cols - 1);
-    if (!kBeyondLimits && springs.has_bending) {
-      add_row<Real, kBeyondLimits>(own.bending_u, share, fields, first, 2, 0, grid.cols - 2);
+    add_row<Real, kDamped>(own.along_u, share, fields, first, 1, 0, grid.cols - 1);
+    if (kDamped != Damped::rate_beyond_limits && springs.has_bending) {
+      add_row<Real, kDamped>(own.bending_u, share, fields, first, 2, 0, grid.cols - 2);
       if (r + 2 < grid.rows)
-        add_row<Real, kBeyondLimits>(own.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
+        add_row<Real, kDamped>(own.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
     }
     if (last) break;
-    add_row<Real, kBeyondLimits>(own.along_v, factor, fields, first, stride, 0, grid.cols);
+    add_row<Real, kDamped>(own.along_v, factor, fields, first, stride, 0, grid.cols);
     if (springs.has_shear) {
-      add_row<Real, kBeyondLimits>(own.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
-      add_row<Real, kBeyondLimits>(own.rising, factor, fields, first, stride - 1, 1, grid.cols);
+      add_row<Real, kDamped>(own.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
+      add_row<Real, kDamped>(own.rising, factor, fields, first, stride - 1, 1, grid.cols);
     }
   }
 }
@@ -100,27 +111,43 @@ std::size_t strain_damping_work_size(const Grid& grid) { return 3 * static_cast<
   WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<Real>& springs, const Grid& grid,           \
                                             Components<const Real> position, Components<const Real> change, \
                                             Real factor, Components<Real> force, Real* work) {              \
-    add_all<Real, false, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});    \
+    add_all<Real, Damped::rate, false>(springs, grid, factor,                                               \
+                                       {position, change, force, work_row(grid, work)});                    \
   }                                                                                                         \
   template <>                                                                                               \
   WEFT_MULTIVERSION void add_torn_strain_damping(                                                           \
       const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,                \
       Components<const Real> change, Real factor, Components<Real> force, Real* work) {                     \
-    add_all<Real, false, true>(springs, grid, factor, {position, change, force, work_row(grid, work)});     \
+    add_all<Real, Damped::rate, true>(springs, grid, factor,                                                \
+                                      {position, change, force, work_row(grid, work)});                     \
+  }                                                                                                         \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_growth_damping(const SpringLattice<Real>& springs, const Grid& grid,           \
+                                            Components<const Real> position, Components<const Real> way,    \
+                                            Real factor, Components<Real> force, Real* work) {              \
+    add_all<Real, Damped::growth, false>(springs, grid, factor,                                             \
+                                         {position, way, force, work_row(grid, work)});                     \
+  }                                                                                                         \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_torn_growth_damping(                                                           \
+      const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,                \
+      Components<const Real> way, Real factor, Components<Real> force, Real* work) {                        \
+    add_all<Real, Damped::growth, true>(springs, grid, factor,                                              \
+                                        {position, way, force, work_row(grid, work)});                      \
   }                                                                                                         \
   template <>                                                                                               \
   WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<Real>& springs, const Grid& grid,            \
                                            Components<const Real> position, Components<const Real> change,  \
                                            Real factor, Components<Real> force, Real* work) {               \
-    add_all<Real, true, false>(springs, grid, factor * springs.excess,                                      \
-                               {position, change, force, work_row(grid, work)});                            \
+    add_all<Real, Damped::rate_beyond_limits, false>(springs, grid, factor * springs.excess,                \
+                                                     {position, change, force, work_row(grid, work)});      \
   }                                                                                                         \
   template <>                                                                                               \
   WEFT_MULTIVERSION void add_torn_limit_damping(                                                            \
       const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,                \
       Components<const Real> change, Real factor, Components<Real> force, Real* work) {                     \
-    add_all<Real, true, true>(springs, grid, factor * springs.excess,                                       \
-                              {position, change, force, work_row(grid, work)});                             \
+    add_all<Real, Damped::rate_beyond_limits, true>(springs, grid, factor * springs.excess,                 \
+                                                    {position, change, force, work_row(grid, work)});       \
   }
 
 WEFT_STRAIN_DAMPING_KERNELS(float)

@@ -18,7 +18,18 @@ void add_torn_strain_damping(const SpringLattice<Real>& springs, const Grid& gri
                              Components<const Real> position, Components<const Real> change, Real factor,
                              Components<Real> force, Real* work);
 
-/// The same of what structural and shear springs have beyond their limits alone: on end i
+/// The same with what the springs have grown by since their ends began the `way` that led to `position`: on
+/// end i -factor k (|d| - |d - way_i + way_j|) n. However far they turned on it, it takes energy.
+template <class Real>
+void add_growth_damping(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,
+                        Components<const Real> way, Real factor, Components<Real> force, Real* work);
+/// The same where springs may be cut.
+template <class Real>
+void add_torn_growth_damping(const SpringLattice<Real>& springs, const Grid& grid,
+                             Components<const Real> position, Components<const Real> way, Real factor,
+                             Components<Real> force, Real* work);
+
+/// The same as the first of what structural and shear springs have beyond their limits alone: on end i
 /// -factor (excess k) n (n . (change_i - change_j)) of those that are longer.
 template <class Real>
 void add_limit_damping(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,
