@@ -87,16 +87,35 @@ bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
   return ab == bc && bc == ca;
 }
 
-void mark_pierced(const CellFeatures& a, const CellFeatures& b, const std::vector<Vec3>& x,
-                  std::vector<char>& tangled) {
-  for (const auto& edge : kEdges) {
-    const std::uint32_t p = a.node[edge[0]], q = a.node[edge[1]];
-    for (const auto& triangle : kTriangles) {
+/// The third nodes of the triangles beside a cell's edge; at a rim twice the same.
+std::array<std::uint32_t, 2> beside(const Grid& grid, const CellFeatures& cell, std::size_t edge,
+                                    bool first_row, bool first_col) {
+  const auto stride = static_cast<std::uint32_t>(grid.stride);
+  const auto& node = cell.node;
+  switch (edge) {
+    case 0:
+      return {node[3], first_row ? node[3] : node[0] - stride};
+    case 1:
+      return {node[3], first_col ? node[3] : node[0] - 1};
+    case 2:
+      return {node[1], node[2]};
+    default:  // of the last column or row
+      return {node[0], node[0]};
+  }
+}
+
+template <class Visit>
+void pierced(const CellFeatures& a, const CellFeatures& b, const std::vector<Vec3>& x, Visit visit) {
+  for (std::size_t i = 0; i < kEdges.size(); ++i) {
+    if (!a.owns_edge(i)) continue;
+    const std::uint32_t p = a.node[kEdges[i][0]], q = a.node[kEdges[i][1]];
+    for (std::size_t j = 0; j < kTriangles.size(); ++j) {
+      if (!a.edge[i].near(b.triangle[j], 0)) continue;
+      const auto& triangle = kTriangles[j];
       const std::array<std::uint32_t, 3> t{b.node[triangle[0]], b.node[triangle[1]], b.node[triangle[2]]};
       const auto shared = [&](std::uint32_t n) { return n == p || n == q; };
       if (std::any_of(t.begin(), t.end(), shared)) continue;
-      if (!pierces(x[p], x[q], x[t[0]], x[t[1]], x[t[2]])) continue;
-      for (const std::uint32_t n : {p, q, t[0], t[1], t[2]}) tangled[n] = 1;
+      if (pierces(x[p], x[q], x[t[0]], x[t[1]], x[t[2]])) visit(i, t);
     }
   }
 }
@@ -186,18 +205,27 @@ const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, dou
   return pairs_;
 }
 
-void FeatureSearch::find_tangles(const LayerNodes& nodes, std::vector<char>& tangled) {
+std::vector<Crossing> FeatureSearch::find_crossings(const LayerNodes& nodes) {
   for (Sheet& sheet : sheets_) {
     sheet.tree.refit(nodes.start.data() + sheet.first, nodes.start.data() + sheet.first);
   }
+  std::vector<Crossing> crossings;
+  const auto find = [&](const Sheet& sheet, Cell cell, const CellFeatures& a, const CellFeatures& b) {
+    pierced(a, b, nodes.start, [&](std::size_t edge, const std::array<std::uint32_t, 3>& triangle) {
+      crossings.push_back({{a.node[kEdges[edge][0]], a.node[kEdges[edge][1]]},
+                           beside(sheet.tree.grid(), a, edge, cell.row == 0, cell.col == 0),
+                           triangle});
+    });
+  };
   for_each_sheets(0, [&](const Sheet& one, const Sheet& other) {
     for (const auto& [first, second] : cells_) {
       const CellFeatures a = features_of(one.tree.grid(), one.first, first, nodes.start, nodes.start);
       const CellFeatures b = features_of(other.tree.grid(), other.first, second, nodes.start, nodes.start);
-      mark_pierced(a, b, nodes.start, tangled);
-      mark_pierced(b, a, nodes.start, tangled);
+      find(one, first, a, b);
+      find(other, second, b, a);
     }
   });
+  return crossings;
 }
 
 }  // namespace weft

@@ -4,6 +4,13 @@
 
 namespace weft {
 
+/// An edge that passes through a triangle with which it shares no node. Indices into LayerNodes.
+struct Crossing {
+  std::array<std::uint32_t, 2> edge{};
+  std::array<std::uint32_t, 2> across{};  ///< third nodes of the triangles beside the edge; the same at a rim
+  std::array<std::uint32_t, 3> triangle{};
+};
+
 /// Finds the features that come near each other on their ways from LayerNodes::start to ::end, of one cloth
 /// and of different ones. A cell is two triangles, as drawn: its diagonal is the one from its top left to its
 /// bottom right node. What shares a node is no pair. The order of the pairs follows from the grids alone.
@@ -21,8 +28,8 @@ class FeatureSearch {
   /// The pairs of cells that the last search went through, and how many searches there were.
   std::size_t cell_pairs() const { return cell_pairs_; }
   std::size_t searches() const { return searches_; }
-  /// Adds to `tangled` the nodes of triangles that edges pass through at `start`.
-  void find_tangles(const LayerNodes& nodes, std::vector<char>& tangled);
+  /// Where cloth passes through cloth at `start`.
+  std::vector<Crossing> find_crossings(const LayerNodes& nodes);
 
  private:
   struct Sheet {

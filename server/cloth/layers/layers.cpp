@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cloth/layers/untangling.h"
 #include "cloth/solver/node_vector.h"
 
 namespace weft {
@@ -112,16 +113,36 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   }
   std::transform(nodes_.start.begin(), nodes_.start.end(), nodes_.velocity.begin(), nodes_.end.begin(),
                  [&](const Vec3& x, const Vec3& v) { return x + dt * v; });
-  if (may_be_tangled_) find_tangles();
+  if (may_be_tangled_) untangle(cloths);
   share_pairs(cloths, dt);
 }
 
 template <class Real>
-void Layers<Real>::find_tangles() {
+void Layers<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
+  const std::vector<Crossing> crossings = search_.find_crossings(nodes_);
   nodes_.tangled.assign(nodes_.start.size(), 0);
-  search_.find_tangles(nodes_, nodes_.tangled);
+  for (const Crossing& crossing : crossings) {
+    for (const std::uint32_t n : crossing.edge) nodes_.tangled[n] = 1;
+    for (const std::uint32_t n : crossing.triangle) nodes_.tangled[n] = 1;
+  }
   tangled_ = static_cast<int>(std::count(nodes_.tangled.begin(), nodes_.tangled.end(), 1));
   may_be_tangled_ = tangled_ > 0;
+  if (!may_be_tangled_) return;
+  const double longest = *std::min_element(gaps_.begin(), gaps_.end());
+  const std::vector<Vec3> moves = untangling_moves(crossings, nodes_, longest);
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    bool changed = false;
+    for (std::size_t i = 0; i < grids_[k].size(); ++i) {
+      const std::size_t n = nodes_.first[k] + i;
+      if (moves[n].isZero(0)) continue;
+      add(kernels::components(cloths[k].particles().position), i, moves[n]);
+      nodes_.start[n] += moves[n];
+      nodes_.end[n] += moves[n];
+      contacts_[k]->struck().push_back(i);
+      changed = true;
+    }
+    if (changed) cloths[k].moved_from_outside();
+  }
 }
 
 template <class Real>

@@ -17,7 +17,8 @@ namespace weft {
 /// sheet would push each other.
 ///
 /// Cloth may begin entangled, and split and merge may make it so. Nodes of triangles that an edge passes
-/// through are left alone, by contact and net, until none does; what is not entangled does not become so.
+/// through are left alone, by contact and net, and led out of each other (untangling_moves) until none does;
+/// what is not entangled does not become so.
 template <class Real>
 class Layers {
  public:
@@ -35,7 +36,7 @@ class Layers {
   void lay_out(std::vector<Cloth<Real>>& cloths);
   void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
   void read_masses(const std::vector<Cloth<Real>>& cloths);
-  void find_tangles();
+  void untangle(std::vector<Cloth<Real>>& cloths);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   std::size_t sheet_of(std::uint32_t node) const;
 

@@ -117,4 +117,41 @@ inline SimulationDescription on_a_slope(double degrees, double friction,
   return scene;
 }
 
+/// A sheet folded over its middle line, which is held as its upper edge is, with a corner of the front half
+/// put through the back one. Nothing pulls it out.
+inline SimulationDescription poked_by_its_corner(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({0.5, 1}, level, stepping);
+  scene.effects.erase(scene.effects.begin());  // gravity
+  const Grid grid = scene.cloths[0].base_cells.at(level);
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const double u = double(c) / (grid.cols - 1), v = double(r) / (grid.rows - 1);
+      // Beyond a line 0.14 m from the corner the sheet is bent backwards by 40 degrees.
+      const double beyond = std::max(0.0, 0.2 - 0.5 * (1 - u) - (1 - v)) / std::numbers::sqrt2;
+      const double bend = 40 * std::numbers::pi / 180,
+                   back = beyond * (1 - std::cos(bend)) / std::numbers::sqrt2;
+      const double front = std::max(0.0, v - 0.5) * std::sin(0.04),
+                   rise = std::abs(v - 0.5) * (v < 0.5 ? 1 : std::cos(0.04));
+      scene.cloths[0].nodes.push_back({0.5 * u - back, -0.5 + rise - back, front - beyond * std::sin(bend)});
+    }
+  }
+  scene.cloths[0].pins = {PinRegion{0, 1, 0, 0}, PinRegion{0, 1, 0.5, 0.5}};
+  return scene;
+}
+
+/// A held sheet, and a small one that sticks in it with a corner. Nothing pulls it out.
+inline SimulationDescription stuck_in(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1, 1}, level, stepping);
+  scene.effects.erase(scene.effects.begin());  // gravity
+  scene.cloths[0].pins = {PinRegion{0, 1, 0, 0}};
+  ClothDescription small = scene.cloths[0];
+  small.size = {0.3, 0.3};
+  small.position = {0.02, 0.01, 0.17};
+  small.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY())) *
+                      Quaternion(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));
+  small.pins.clear();
+  scene.cloths.push_back(small);
+  return scene;
+}
+
 }  // namespace weft::test
