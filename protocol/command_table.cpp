@@ -200,8 +200,8 @@ constexpr Field field(const char* name, Presence presence, Bounds bounds = {}) {
           [](const Bounds& own) { return kind_of(C{}.*kMember, own); }};
 }
 
-/// One of the two and not both.
-Fault check_camera(const json&, Command& command) {
+/// One of distance and eye; a cone is whole and has an eye.
+Fault check_camera(const json& message, Command& command) {
   const auto& camera = std::get<Camera>(command);
   if (camera.distance && camera.eye)
     return JsonFault{"conflict", "/eye",
@@ -209,6 +209,16 @@ Fault check_camera(const json&, Command& command) {
   if (!camera.distance && !camera.eye)
     return JsonFault{"missing", "/distance",
                      "/distance is missing; allowed: exactly one of /distance and /eye"};
+  if (!camera.target && !camera.half_angle) return {};
+  const std::string path = camera.target ? "/target" : "/half_angle";
+  const std::string other = camera.target ? "/half_angle" : "/target";
+  if (camera.distance)
+    return JsonFault{"conflict", path, path + " is given beside /distance; allowed: beside /eye"};
+  if (!camera.target || !camera.half_angle)
+    return JsonFault{"missing", other,
+                     other + " is missing; allowed: both /target and /half_angle or neither"};
+  if (*camera.target == *camera.eye)
+    return refuse("range", "/target", message["target"], "any point but /eye");
   return {};
 }
 
@@ -270,7 +280,8 @@ const std::vector<Operation>& operations() {
       {"camera",
        Camera{},
        {field<&Camera::distance>("distance", kOptional, {0, 1e6, "m"}),
-        field<&Camera::eye>("eye", kOptional, kEye)},
+        field<&Camera::eye>("eye", kOptional, kEye), field<&Camera::target>("target", kOptional, kEye),
+        field<&Camera::half_angle>("half_angle", kOptional, {0.001, 3.14, "rad"})},
        check_camera},
       {"ack", Ack{}, {field<&Ack::frame>("f", kRequired, kId)}},
       {"ball.add",

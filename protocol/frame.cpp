@@ -12,7 +12,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "fields are stored as they lie in memory");
 
 constexpr std::array<std::uint8_t, 4> kMagic{'W', 'E', 'F', 'T'};
-constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2;
+constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2, kGapsCodec = 3;
 constexpr std::size_t kBallBytes = 24, kObstacleBytes = 32, kMaxHeaderBytes = 256;
 
 /// Offsets of the header's fields.
@@ -141,6 +141,8 @@ class Reader {
     switch (header[kTypeAt]) {
       case kClothRecord:
         return cloth(header, payload);
+      case kTearsRecord:
+        return tears(header, payload);
       case kBallsRecord:
         return balls(header, payload);
       case kObstaclesRecord:
@@ -167,6 +169,31 @@ class Reader {
     if (!decode_grid(payload, cloth.rows, cloth.cols, cloth.quantisation, cloth.positions, error_))
       return false;
     frame_.cloths.push_back(std::move(cloth));
+    return true;
+  }
+
+  bool tears(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
+    if (header[kCodecAt] != kGapsCodec) return fail("codec " + std::to_string(header[kCodecAt]));
+    const auto index = get<std::uint32_t>(header, kClothAt);
+    const auto cloth = std::find_if(frame_.cloths.begin(), frame_.cloths.end(),
+                                    [&](const ClothRecord& each) { return each.cloth == index; });
+    if (cloth == frame_.cloths.end() || cloth->cols != get<std::uint16_t>(header, kColsAt) ||
+        cloth->rows != get<std::uint16_t>(header, kRowsAt))
+      return fail("tears of no mesh before them");
+    const auto faces = static_cast<std::uint32_t>((cloth->rows - 1) * (cloth->cols - 1));
+    std::uint32_t next = 0;  // the least that the next face can be
+    for (std::size_t at = 0; at < payload.size();) {
+      std::uint32_t gap = 0;
+      int shift = 0;
+      for (bool more = true; more; shift += 7) {
+        if (at == payload.size() || shift > 14) return fail("unreadable gap between tears");
+        more = (payload[at] & 0x80U) != 0;
+        gap |= static_cast<std::uint32_t>(payload[at++] & 0x7fU) << shift;
+      }
+      if (gap >= faces - next) return fail("tear beyond the mesh");
+      cloth->torn_faces.push_back(next + gap);
+      next += gap + 1;
+    }
     return true;
   }
 
@@ -228,6 +255,25 @@ std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint
   put(record.data(), kOriginAt, quantisation.origin);
   put(record.data(), kQuantumAt, quantisation.quantum);
   encode_grid(grid, quantisation, record);
+  put_payload_length(record);
+  return record;
+}
+
+std::vector<std::uint8_t> encode_tears_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
+                                              int simulated_level, int rows, int cols,
+                                              std::span<const std::uint32_t> torn_faces) {
+  auto record =
+      header(stamp, kTearsRecord, kGapsCodec, static_cast<std::size_t>(cols), static_cast<std::size_t>(rows));
+  put(record.data(), kClothAt, cloth);
+  put(record.data(), kLevelAt, static_cast<std::uint8_t>(level));
+  put(record.data(), kSimulatedLevelAt, static_cast<std::uint8_t>(simulated_level));
+  std::uint32_t next = 0;
+  for (const std::uint32_t face : torn_faces) {
+    std::uint32_t gap = face - next;
+    for (; gap >= 0x80U; gap >>= 7U) record.push_back(static_cast<std::uint8_t>(gap | 0x80U));
+    record.push_back(static_cast<std::uint8_t>(gap));
+    next = face + 1;
+  }
   put_payload_length(record);
   return record;
 }

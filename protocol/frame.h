@@ -10,7 +10,7 @@
 namespace weft::protocol {
 
 inline constexpr std::size_t kHeaderBytes = 64;
-inline constexpr std::uint8_t kClothRecord = 1, kBallsRecord = 2, kObstaclesRecord = 3;
+inline constexpr std::uint8_t kClothRecord = 1, kBallsRecord = 2, kObstaclesRecord = 3, kTearsRecord = 4;
 inline constexpr std::uint16_t kFlagLast = 1, kFlagPaused = 2, kFlagSlow = 4;
 
 /// What all records of one message share.
@@ -41,6 +41,11 @@ struct FrameObstacle {
 /// One cloth's record, last or not: encoded once a level and shared by all viewers of that level.
 std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
                                               int simulated_level, int bits, const GridView& grid);
+/// What is torn of a cloth whose mesh has rows x cols nodes: face r * (cols - 1) + c is that right of and
+/// below node (r, c); ascending, at least one. To follow the cloth's own record.
+std::vector<std::uint8_t> encode_tears_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
+                                              int simulated_level, int rows, int cols,
+                                              std::span<const std::uint32_t> torn_faces);
 std::vector<std::uint8_t> encode_balls_record(const FrameStamp& stamp, std::span<const FrameBall> balls);
 std::vector<std::uint8_t> encode_obstacles_record(const FrameStamp& stamp,
                                                   std::span<const FrameObstacle> obstacles);
@@ -52,7 +57,8 @@ struct ClothRecord {
   int level = 0, simulated_level = 0;
   int rows = 0, cols = 0;
   Quantisation quantisation;
-  std::vector<float> positions;  ///< x, y, z interleaved, row by row, m
+  std::vector<float> positions;           ///< x, y, z interleaved, row by row, m
+  std::vector<std::uint32_t> torn_faces;  ///< as in encode_tears_record; empty while the cloth is whole
 };
 
 struct Frame {

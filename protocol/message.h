@@ -38,8 +38,11 @@ struct SceneJoin {
   std::string scene;
 };
 struct Camera {
-  std::optional<double> distance;  ///< exactly one of the two
-  std::optional<Vector> eye;
+  std::optional<double> distance = {};  ///< exactly one of the two
+  std::optional<Vector> eye = {};
+  /// With an eye, both or neither: what it looks at, another point, and how far from there it sees, rad.
+  std::optional<Vector> target = {};
+  std::optional<double> half_angle = {};
 };
 struct Ack {
   std::uint32_t frame = 0;

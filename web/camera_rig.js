@@ -53,6 +53,11 @@ export class CameraRig {
     return this.camera.position.toArray();
   }
 
+  /** What the page has in sight, as the `camera` message says it. */
+  get view() {
+    return {eye: this.eye, target: this.controls.target.toArray(), half_angle: this.stage.halfAngle};
+  }
+
   /** Looks at the centre from `distance` away, from the present direction. */
   goTo(distance) {
     const wanted = Math.min(kFarthest, Math.max(kNearest, distance));
@@ -117,9 +122,9 @@ export class CameraRig {
   }
 }
 
-/** Sends the camera's place when it has changed, at most ten times a second, and always the last one. */
-export class EyeReporter {
-  /** @param {(eye: number[]) => void} send */
+/** Sends where the camera is and what it has in sight when that has changed, at most ten times a second, and always the last one. */
+export class ViewReporter {
+  /** @param {(view: {eye: number[], target: number[], half_angle: number}) => void} send */
   constructor(send) {
     this.send = send;
     this.sent = null;
@@ -132,11 +137,12 @@ export class EyeReporter {
     this.nextMs = 0;
   }
 
-  update(eye, nowMs) {
+  update(view, nowMs) {
     if (nowMs < this.nextMs) return;
-    if (this.sent && eye.every((value, axis) => Math.abs(value - this.sent[axis]) < 1e-3)) return;
-    this.sent = eye;
+    const values = [...view.eye, ...view.target, view.half_angle];
+    if (this.sent && values.every((value, i) => Math.abs(value - this.sent[i]) < 1e-3)) return;
+    this.sent = values;
     this.nextMs = nowMs + 100;
-    this.send(eye);
+    this.send(view);
   }
 }

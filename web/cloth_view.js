@@ -2,7 +2,7 @@ import {
   BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
   MeshLambertMaterial, MeshStandardMaterial,
 } from './three/three.module.js';
-import {centreOf, gridNormals, lowestOf, materialCoordinates, sideIndices, triangleIndices} from './grid.js';
+import {centreOf, gridNormals, lowestOf, materialCoordinates, sideIndices, tornNormals, tornOn, triangleIndices} from './grid.js';
 import {Morph} from './morph.js';
 
 /**
@@ -37,12 +37,15 @@ export class ClothView {
     this.name = description.name ?? `cloth ${description.cloth}`;
     this.size = description.size;
     this.materials = materials;
+    this.instant = instant;
     this.morph = new Morph(instant);
     this.group = new Group();
     this.rows = 0;
     this.cols = 0;
     /** The record of the newest frame shown: level, rows, cols, positions. */
     this.record = null;
+    /** The record's torn faces as they are drawn, on the mesh's own grid. */
+    this.torn = new Set();
     this.centre = null;
   }
 
@@ -51,17 +54,28 @@ export class ClothView {
    * @returns {boolean} whether the mesh still moves by itself (a morph is under way)
    */
   show(before, after, share, nowMs, pixel) {
+    // Between two levels a torn sheet's nodes would glide across its tears.
+    this.morph.instant = this.instant || after.torn.length > 0;
     const mesh = this.morph.update(before, after, share, nowMs, pixel);
-    if (mesh.rows !== this.rows || mesh.cols !== this.cols) this.#rebuild(mesh.rows, mesh.cols);
+    const rebuilt = mesh.rows !== this.rows || mesh.cols !== this.cols;
+    if (rebuilt) this.#rebuild(mesh.rows, mesh.cols);
+    const torn = tornOn(after, mesh.rows);
+    if (rebuilt || torn.size !== this.torn.size || [...torn].some((face) => !this.torn.has(face))) this.#cut(torn);
     const {position, normal} = this.geometry.attributes;
     position.array.set(mesh.positions);
-    gridNormals(mesh.positions, mesh.rows, mesh.cols, normal.array);
+    if (torn.size > 0) tornNormals(mesh.positions, mesh.rows, mesh.cols, torn, normal.array);
+    else gridNormals(mesh.positions, mesh.rows, mesh.cols, normal.array);
     position.needsUpdate = true;
     this.geometry.boundingSphere = null;  // what a ray is tried against first: computed when one is
     normal.needsUpdate = true;
     this.record = after;
     this.centre = centreOf(after.positions);
     return this.morph.active;
+  }
+
+  /** Cells that are drawn: those that are not torn. */
+  get facesDrawn() {
+    return this.geometry.drawRange.count / 6;
   }
 
   /** Half the diagonal of a cell as drawn, with a sixth for stretch, m. */
@@ -99,6 +113,18 @@ export class ClothView {
     this.geometry?.dispose();
     this.lines?.geometry.dispose();
     this.group.removeFromParent();
+  }
+
+  /** Draws all faces but these. */
+  #cut(torn) {
+    this.torn = torn;
+    const keep = (geometry, indices) => {
+      geometry.index.array.set(indices);
+      geometry.index.needsUpdate = true;
+      geometry.setDrawRange(0, indices.length);
+    };
+    keep(this.geometry, triangleIndices(this.rows, this.cols, torn));
+    keep(this.lines.geometry, sideIndices(this.rows, this.cols, torn));
   }
 
   #rebuild(rows, cols) {

@@ -3,33 +3,51 @@
  * (protocol/PROTOCOL.md, section 4).
  */
 
-/** Two triangles a cell, counter-clockwise seen from the side the cloth's face normal points to. */
-export function triangleIndices(rows, cols) {
+/** Two triangles a cell that is not torn, counter-clockwise seen from the side the cloth's face normal points to. */
+export function triangleIndices(rows, cols, torn = new Set()) {
   const indices = new Uint32Array((rows - 1) * (cols - 1) * 6);
   let at = 0;
   for (let r = 0; r + 1 < rows; ++r) {
     for (let c = 0; c + 1 < cols; ++c) {
+      if (torn.has(r * (cols - 1) + c)) continue;
       const a = r * cols + c;
       const below = a + cols;
       indices.set([a, below, a + 1, a + 1, below, below + 1], at);
       at += 6;
     }
   }
-  return indices;
+  return indices.subarray(0, at);
 }
 
-/** The sides of the cells, without the triangles' diagonals: what the wireframe draws. */
-export function sideIndices(rows, cols) {
+/**
+ * The torn faces of a record, as those of the same sheet on a grid of `rows`, its own or a finer one.
+ * @param {{torn: number[], rows: number, cols: number}} record
+ */
+export function tornOn({torn, rows: ownRows, cols: ownCols}, rows) {
+  const parts = (rows - 1) / (ownRows - 1), cols = (ownCols - 1) * parts;
+  const faces = new Set();
+  for (const face of torn) {
+    const row = Math.floor(face / (ownCols - 1)) * parts, col = (face % (ownCols - 1)) * parts;
+    for (let r = row; r < row + parts; ++r) {
+      for (let c = col; c < col + parts; ++c) faces.add(r * cols + c);
+    }
+  }
+  return faces;
+}
+
+/** The sides of the cells that are not torn, without the triangles' diagonals: what the wireframe draws. */
+export function sideIndices(rows, cols, torn = new Set()) {
+  const whole = (r, c) => r >= 0 && c >= 0 && r + 1 < rows && c + 1 < cols && !torn.has(r * (cols - 1) + c);
   const indices = new Uint32Array(2 * (rows * (cols - 1) + cols * (rows - 1)));
   let at = 0;
   for (let r = 0; r < rows; ++r) {
     for (let c = 0; c < cols; ++c) {
       const a = r * cols + c;
-      if (c + 1 < cols) indices.set([a, a + 1], at), (at += 2);
-      if (r + 1 < rows) indices.set([a, a + cols], at), (at += 2);
+      if (whole(r - 1, c) || whole(r, c)) indices.set([a, a + 1], at), (at += 2);
+      if (whole(r, c - 1) || whole(r, c)) indices.set([a, a + cols], at), (at += 2);
     }
   }
-  return indices;
+  return indices.subarray(0, at);
 }
 
 /** Texture coordinates in metres of cloth at rest, so that threads keep their width whatever the cloth's size and level. */
@@ -68,6 +86,29 @@ export function gridNormals(positions, rows, cols, normals) {
       normals[at + 1] = ny / length;
       normals[at + 2] = nz / length;
     }
+  }
+  return normals;
+}
+
+/** Unit normals of a torn sheet: of the faces around each node that are not torn, by their areas. Writes into `normals`. */
+export function tornNormals(positions, rows, cols, torn, normals) {
+  normals.fill(0);
+  for (let r = 0; r + 1 < rows; ++r) {
+    for (let c = 0; c + 1 < cols; ++c) {
+      if (torn.has(r * (cols - 1) + c)) continue;
+      const a = 3 * (r * cols + c), right = a + 3, below = a + 3 * cols, across = below + 3;
+      const [ux, uy, uz] = [0, 1, 2].map((axis) => positions[right + axis] - positions[below + axis]);
+      const [vx, vy, vz] = [0, 1, 2].map((axis) => positions[a + axis] - positions[across + axis]);
+      for (const corner of [a, right, below, across]) {
+        normals[corner] += uy * vz - uz * vy;
+        normals[corner + 1] += uz * vx - ux * vz;
+        normals[corner + 2] += ux * vy - uy * vx;
+      }
+    }
+  }
+  for (let at = 0; at < normals.length; at += 3) {
+    const length = Math.hypot(normals[at], normals[at + 1], normals[at + 2]) || 1;
+    for (let axis = 0; axis < 3; ++axis) normals[at + axis] /= length;
   }
   return normals;
 }

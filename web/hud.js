@@ -1,7 +1,7 @@
 const byId = (id) => document.getElementById(id);
 const kToastMs = 6000;
 /** In place of the substeps, of which there are none. */
-const kStandsStill = {asleep: 'none: asleep', frozen: 'none: frozen'};
+const kStandsStill = {asleep: 'none: asleep', frozen: 'none: frozen', unseen: 'none: unseen'};
 
 /** Sets text only when it differs: screen readers and layout are spared. */
 function write(id, text) {
@@ -14,8 +14,11 @@ export const cellsText = (rows, cols) => `${cols - 1} × ${rows - 1}`;
 
 /** What the page tells: the level badge, numbers, notices, the banner and toasts. */
 export class Hud {
+  /** Cloths that no viewer sees, by index. */
+  #unseen = new Set();
+
   /**
-   * @param {object[]} cloths {name, level, rows, cols, distance}, the nearest first
+   * @param {object[]} cloths {cloth, name, level, rows, cols, distance}, the nearest first
    * @param {{minLevel: number, maxLevel: number}} range of levels the nearest cloth can have
    */
   showLevels(cloths, range) {
@@ -30,7 +33,7 @@ export class Hud {
     [...bars.children].forEach((bar, i) => bar.classList.toggle('on', i <= nearest.level - range.minLevel));
     const list = byId('badge-others');
     list.hidden = others.length === 0;
-    const lines = others.map((cloth) => `${cloth.name}: ${cellsText(cloth.rows, cloth.cols)}, ${cloth.distance.toFixed(1)} m`);
+    const lines = others.map((cloth) => `${cloth.name}: ${cellsText(cloth.rows, cloth.cols)}, ${cloth.distance.toFixed(1)} m${this.#unseen.has(cloth.cloth) ? ', unseen' : ''}`);
     if (list.dataset.text !== lines.join('\n')) {
       list.dataset.text = lines.join('\n');
       list.replaceChildren(...lines.map((line) => Object.assign(document.createElement('li'), {textContent: line})));
@@ -39,13 +42,15 @@ export class Hud {
 
   /** The `stats` message. `cloth` is the index of the nearest cloth. */
   showStats(stats, cloth) {
+    this.#unseen = new Set(stats.cloths.filter((each) => each.unseen).map((each) => each.cloth));
     const mine = stats.cloths.find((each) => each.cloth === cloth) ?? stats.cloths[0];
     write('badge-step', `${stats.step_ms.toFixed(2)} ms per step`);
     write('number-rate', `${stats.rate.toFixed(2)} × real time`);
     write('number-viewers', String(stats.viewers));
     write('number-dropped', String(stats.dropped));
     if (mine) {
-      write('number-substeps', kStandsStill[mine.state] ?? `${mine.substeps} per step`);
+      const state = mine.unseen && mine.state === 'asleep' ? 'unseen' : mine.state;
+      write('number-substeps', kStandsStill[state] ?? `${mine.substeps} per step`);
       write('number-simulated', `level ${mine.simulated_level}`);
     }
   }

@@ -1,5 +1,5 @@
 import {BallHand} from './ball_hand.js';
-import {CameraRig, EyeReporter} from './camera_rig.js';
+import {CameraRig, ViewReporter} from './camera_rig.js';
 import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
 import {EffectsPanel} from './effects_panel.js';
@@ -139,7 +139,7 @@ function start(settings) {
 
   // --- What the server says ---
 
-  const eye = new EyeReporter((place) => command({op: 'camera', eye: place}));
+  const view = new ViewReporter((seen) => command({op: 'camera', ...seen}));
 
   link.addEventListener('state', ({detail}) => {
     hud.showConnection(detail.state);
@@ -152,7 +152,7 @@ function start(settings) {
     if (detail.state === 'open') {
       hud.showBanner(null);
       tellNothing();
-      eye.forget();
+      view.forget();
       command({op: 'scene.list'}).then((reply) => reply && panel.setScenes((scenes = reply.scenes), sceneShown));
     } else if (detail.state === 'lost') {
       retryAt = performance.now() + detail.retryMs;
@@ -178,7 +178,7 @@ function start(settings) {
     scene: (message) => {
       clothHand.forget();
       show.begin(message);
-      eye.forget();
+      view.forget();
       if (sceneShown !== message.name) {
         rig.place(message.camera.eye ?? [0, 0, message.camera.distance], message.camera.target ?? [0, 0, 0]);
         history.replaceState(null, '', addressOfScene(new URL(location.href), message.name));
@@ -254,7 +254,7 @@ function start(settings) {
       rig.setCentre(levels[0].centre);
       hud.showLevels(levels, show.levelRange(levels[0].cloth));
       hud.showClock(show.stamp.time);
-      if (link.connected) eye.update(rig.eye, nowMs);
+      if (link.connected) view.update(rig.view, nowMs);
     }
     showBalls();
     showWaiting(nowMs);

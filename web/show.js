@@ -155,7 +155,7 @@ export class Show {
       .map((view) => ({
         cloth: view.id, name: view.name, level: view.record.level, simulatedLevel: view.record.simulatedLevel,
         rows: view.record.rows, cols: view.record.cols, quantum: view.record.quantum,
-        centre: view.centre, distance: distanceTo(eye, view.centre),
+        faces: view.facesDrawn, centre: view.centre, distance: distanceTo(eye, view.centre),
       }))
       .sort((a, b) => a.distance - b.distance);
   }

@@ -1,6 +1,6 @@
 import {
   CanvasTexture, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping, PCFShadowMap,
-  PerspectiveCamera, PlaneGeometry, RepeatWrapping, Scene, ShadowMaterial, SRGBColorSpace, WebGLRenderer,
+  PerspectiveCamera, PlaneGeometry, RepeatWrapping, Scene, ShadowMaterial, SRGBColorSpace, Vector3, WebGLRenderer,
 } from './three/three.module.js';
 
 const kThemes = {
@@ -27,7 +27,7 @@ export class Stage {
     /** How many samples slanted textures may cost. */
     this.anisotropy = settings.high ? Math.min(8, this.renderer.capabilities.getMaxAnisotropy()) : 1;
     this.scene = new Scene();
-    this.camera = new PerspectiveCamera(0, 1, 0.02, 200);  // its field of view follows the window: #resize
+    this.camera = new PerspectiveCamera(settings.fieldOfView, 1, 0.02, 200);  // its field of view follows the window: #resize
     this.halfView = (settings.fieldOfView / 2) * (Math.PI / 180);  // upwards
     this.changed = true;  // something to draw
     this.insets = {right: 0, bottom: 0};
@@ -126,6 +126,13 @@ export class Stage {
   pixelAt([x, y, z]) {
     const distance = this.camera.position.distanceTo({x, y, z});
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.renderer.domElement.clientHeight;
+  }
+
+  /** The round cone around the line of sight that holds the whole picture: its half angle, radians. */
+  get halfAngle() {
+    const corners = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) =>
+      new Vector3(x, y, 0).applyMatrix4(this.camera.projectionMatrixInverse).normalize());
+    return Math.acos(Math.min(...corners.map((corner) => -corner.z)));  // it looks along -z
   }
 
   #resize() {

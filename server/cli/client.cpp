@@ -197,8 +197,13 @@ class Conversation {
             cloths_.size() > 1 ? MeshWriter::path_for_cloth(path, cloths_.at(cloth.cloth)) : path));
       }
     }
-    const MeshFrame mesh{
-        static_cast<int>(stamp.frame), stamp.time, cloth.rows, cloth.cols, cloth.positions, {}};
+    const MeshFrame mesh{static_cast<int>(stamp.frame),
+                         stamp.time,
+                         cloth.rows,
+                         cloth.cols,
+                         cloth.positions,
+                         {},
+                         cloth.torn_faces};
     for (auto& writer : writers) writer->write(mesh);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Mesh sequences to files, by extension: .obj (numbered), .pc2, .csv, .glb.
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,11 +15,14 @@ struct MeshFrame {
   int rows = 0, cols = 0;
   std::vector<float> positions;   ///< x, y, z interleaved, row by row, m
   std::vector<float> velocities;  ///< the same, m/s; empty where unknown
+  /// Faces that are torn, ascending; face r * (cols - 1) + c lies right of and below node (r, c).
+  std::vector<std::uint32_t> torn_faces = {};
 };
 
 /// Writes the frames of one cloth to one file (or numbered sequence). The level may change between frames:
 /// .obj and .csv keep each frame's own grid; .pc2 and .glb have one topology, so there every frame is brought
-/// to the first one's grid (on_grid).
+/// to the first one's grid (on_grid). Torn faces are left out of .obj; .pc2 and .csv know no faces, a .glb
+/// keeps all of them.
 class MeshWriter {
  public:
   virtual ~MeshWriter() = default;

@@ -50,6 +50,8 @@ MeshFrame mesh_of(const Simulation<float>& simulation, std::size_t cloth, int fr
       append(mesh.velocities, particles.velocity, r, c);
     }
   }
+  const Cloth<float>& torn = simulation.cloths()[cloth];
+  if (torn.walls() != nullptr) mesh.torn_faces = torn.walls()->at(torn.level()).torn_faces();
   return mesh;
 }
 

@@ -10,7 +10,9 @@
 #include "cloth/clock.h"
 #include "cloth/random.h"
 #include "cloth/refine.h"
-#include "cloth/settle.h"
+#include "cloth/tear/mend.h"
+#include "cloth/tear/tearing.h"
+#include "cloth/unfold.h"
 
 namespace weft {
 namespace {
@@ -88,6 +90,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
                 [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
   enter_level(level, std::move(particles));
   perturb(description_, seed, particles_);
+  begins_ = !description_.nodes.empty();
   hand_to_guard();
 }
 
@@ -101,8 +104,10 @@ void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
   composed_ = count;
   damping_time_ = 0;
   bends_plate_ = limits_strain_ = false;
+  tearing_.reset();
   for (const EffectDescription& effect : effects) {
     if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
+    if (const auto* tearing = std::get_if<TearingEffect>(&effect)) tearing_ = *tearing;
     bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
     limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
   }
@@ -125,6 +130,10 @@ void Cloth<Real>::request_level(int level) {
 
 template <class Real>
 bool Cloth<Real>::apply_pending_level() {
+  if (std::exchange(begins_, false) && is_tangled(particles_, springs_)) {
+    unfold(particles_, description_, level_);
+    hand_to_guard();
+  }
   const int target = pending_level_.value_or(level_);
   pending_level_.reset();
   const bool changes = target != level_;
@@ -132,17 +141,22 @@ bool Cloth<Real>::apply_pending_level() {
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
+    const bool by_area = description_.discretization == Discretization::continuum;
     if (next > level_) {
       split(particles_, particles);
+      if (walls_) mend_split(walls_->at(next), cell(particles.grid()), particles);
     } else {
       merge(particles_, particles);
-      if (description_.discretization == Discretization::continuum) merge_momentum(particles_, particles);
+      if (by_area && torn_) merge_torn_momentum(particles_, *torn_, particles);
+      if (by_area && !torn_) merge_momentum(particles_, particles);
     }
     enter_level(next, std::move(particles));
   }
   // The paper's own rules change levels as the paper does, an implicit step finds its balance by itself.
-  unsettled_ = unsettled_ || (changes && !is_implicit(guard_.method()) &&
-                              description_.discretization == Discretization::continuum);
+  if (changes && unsettled_ == Unsettled::no && !is_implicit(guard_.method()) &&
+      description_.discretization == Discretization::continuum) {
+    unsettled_ = Unsettled::by_level;
+  }
   return changes;
 }
 
@@ -152,6 +166,7 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
   pins_ = Pins<Real>(description_.pins, time_, particles_);
+  if (walls_) take_over_walls();
   make_springs();
   earlier_contacts_ = contact_counters();
   contact_.reset();
@@ -163,20 +178,40 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
 template <class Real>
 void Cloth<Real>::hand_to_guard() {
   const Grid& grid = particles_.grid();
-  const bool held = description_.material.structural > 0;
+  // A piece that falls off gets as far as it likes from what hangs.
+  const bool held = description_.material.structural > 0 && !torn_;
   const double infinite = std::numeric_limits<double>::infinity();
-  guard_.enter(particles_,
-               held ? Vec2(description_.size.x() / (grid.cols - 1), description_.size.y() / (grid.rows - 1))
-                    : Vec2(infinite, infinite));
+  guard_.enter(particles_, held ? cell(grid) : Vec2(infinite, infinite));
 }
 
 template <class Real>
 void Cloth<Real>::make_springs() {
   springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
                            particles_.grid(), damping_time_, limits_strain_);
+  if (torn_) springs_.tear(torn_);
   plate_.reset();
   if (bends_plate_)
-    plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass);
+    plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass, torn_.get());
+}
+
+template <class Real>
+void Cloth<Real>::tear() {
+  const std::vector<Link> breaking =
+      links_to_break(link_loads(springs_, particles_.position, *tearing_), torn_.get());
+  if (breaking.empty()) return;
+  if (!walls_) walls_.emplace(description_.base_cells, description_.max_level);
+  for (const Link& link : breaking) walls_->add(level_, link);
+  take_over_walls();
+  make_springs();
+  if (plate_) integrator_->restart();  // which has its own copies of the plate
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::take_over_walls() {
+  torn_ = std::make_shared<const TornLinks>(walls_->at(level_));
+  whole_faces_ = torn_->whole_faces();
 }
 
 template <class Real>
@@ -280,11 +315,15 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   using Verdict = typename StepGuard<Real>::Verdict;
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
-  if (sleep_.through(solids, air) || guard_.stands_still()) return {.nodes_in_contact = nodes_in_contact_};
-  if (std::exchange(unsettled_, false)) {
-    settle(particles_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(), solids, dt);
-  }
+  if (resting() && grabs_ != nullptr) wake();
+  if (!solids.empty() && is_put_onto(particles_, contact(), solids)) unsettled_ = Unsettled::by_solid;
+  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
+    return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
+    if (unsettled_ != Unsettled::no) {
+      settle(particles_, unsettled_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(),
+             solids, dt);
+    }
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);
     const auto begin = Clock::now();
@@ -293,8 +332,10 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
       if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
       sleep_.stepped(guard_.speed(), dt, particles_, solids);
       time_ = time + dt;
+      unsettled_ = Unsettled::no;
       nodes_in_contact_ = report.nodes_in_contact;
       report.check_seconds = seconds(Clock::now() - begin);
+      if (tearing_) tear();
       return report;
     }
     forget_attempt();
@@ -306,6 +347,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
 template <class Real>
 AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   EffectContext context{&description_, &air.wind(), time};
+  if (torn_) context.whole_faces = &whole_faces_;
   context.gusts = air.gusts();
   context.node_air = node_air(air, time, dt);
   Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr, plate()};
@@ -319,8 +361,7 @@ const VectorField<float>* Cloth<Real>::node_air(const Air& air, double time, dou
   if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_wind)) return nullptr;
   if (!node_air_) node_air_ = std::make_unique<NodeAir>();
   const Grid& grid = particles_.grid();
-  const Vec2 spacing = description_.size.cwiseQuotient(Vec2(grid.cols - 1, grid.rows - 1));
-  return &node_air_->sample(air, particles_, spacing, time + dt / 2, dt / 2);
+  return &node_air_->sample(air, particles_, cell(grid), time + dt / 2, dt / 2);
 }
 
 template <class Real>

@@ -4,8 +4,10 @@
 #include "cloth/colliders.h"
 #include "cloth/effects/grab.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/settle.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
+#include "cloth/tear/walls.h"
 #include "cloth/wind/node_air.h"
 
 namespace weft {
@@ -28,6 +30,8 @@ class Cloth {
   const Plate<Real>* plate() const { return plate_ ? &*plate_ : nullptr; }
   /// J, of springs and plate.
   double elastic_energy() const;
+  /// nullptr while the cloth is whole.
+  const Walls* walls() const { return walls_ ? &*walls_ : nullptr; }
   double total_mass() const { return total_mass_; }  ///< kg; the same at every level
   ContactCounters contact_counters() const;
 
@@ -62,9 +66,16 @@ class Cloth {
   /// is the caller who wakes it. Tests inject faults so.
   void add_effect(std::unique_ptr<Effect<Real>> effect);
 
-  /// Its steps are left out, as nothing moves: substeps is 0 and the state keeps its bits (sleep.h).
+  /// Its steps are left out, as nothing moves or it rests: substeps is 0 and the state keeps its bits
+  /// (sleep.h).
   bool asleep() const { return sleep_.asleep(); }
   void wake() { sleep_.wake(); }
+  /// While it rests its steps are left out, too, whatever its motion and the wind; not those in which
+  /// something moves it: its pins, a hand, a solid or another cloth near it. It goes on from where it was.
+  void set_resting(bool resting) { sleep_.set_resting(resting); }
+  bool resting() const { return sleep_.resting(); }
+  /// The last step was left out for that, though it may move.
+  bool left_out() const { return sleep_.left_out(); }
   /// Stands still at its last good state, as no way of stepping it from there gives a good one
   /// (step_guard.h).
   bool frozen() const { return guard_.frozen(); }
@@ -89,9 +100,16 @@ class Cloth {
   /// Takes what the effects say to itself; their objects are the caller's to make.
   void compose(const std::vector<EffectDescription>& effects);
   void enter_level(int level, Particles<Real> particles);
+  /// A cell's width and height, m.
+  Vec2 cell(const Grid& grid) const {
+    return description_.size.cwiseQuotient(Vec2(grid.cols - 1, grid.rows - 1));
+  }
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
   void make_springs();
+  void take_over_walls();
+  /// Breaks what the step has loaded beyond its strength.
+  void tear();
   Contact<Real>& contact();
   void set_pins();
   AdvanceReport attempt(const Air& air, double time, double dt);
@@ -104,13 +122,18 @@ class Cloth {
   double total_mass_ = 0;
   int level_ = 0;
   std::optional<int> pending_level_;
-  bool unsettled_ = false;  ///< to be settled before the next step
+  Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
+  bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;             ///< s, at the end of the last step that was made
   double damping_time_ = 0;     ///< s, of the springs (StrainDampingEffect)
   bool bends_plate_ = false;    ///< PlateBendingEffect is there
   bool limits_strain_ = false;  ///< StrainLimitEffect is there
+  std::optional<TearingEffect> tearing_;
+  std::optional<Walls> walls_;             ///< made by the first tear; stay if tearing_ goes
+  std::shared_ptr<const TornLinks> torn_;  ///< by the walls at this level; nullptr while the cloth is whole
+  std::vector<FaceRun> whole_faces_;       ///< of torn_
   Springs<Real> springs_;
   std::optional<Plate<Real>> plate_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;  ///< the description's, then what was added

@@ -7,9 +7,6 @@
 namespace weft {
 namespace {
 
-/// Of a ball that is put somewhere.
-constexpr int kStepsToClear = 3;
-
 /// Puts it there.
 void take(Obstacle& obstacle, const Pose& pose) {
   obstacle.pose.position = obstacle.solid.position = pose.position;
@@ -95,7 +92,7 @@ Solid Ball::solid() const {
           .shape = Sphere{radius},
           .friction = friction,
           .inverse_mass = motion == BallDescription::Motion::dynamic ? 1 / mass : 0,
-          .steps_to_clear = steps_to_clear,
+          .just_put = just_put,
           .start = start,
           .position = position,
           .velocity = velocity};
@@ -120,7 +117,6 @@ BallId Colliders::add(const BallDescription& description) {
   ball.radius = description.radius;
   ball.mass = description.mass;
   ball.friction = description.friction;
-  ball.steps_to_clear = kStepsToClear;
   ball.path = description.path;
   ball.loops = description.loop;
   ball.position = description.path.empty() ? description.position : description.path.front().position;
@@ -220,7 +216,7 @@ void Colliders::push(const std::vector<Solid>& left) {
 void Colliders::end_step() {
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     Ball& ball = balls_[i];
-    ball.steps_to_clear = std::max(0, ball.steps_to_clear - 1);
+    ball.just_put = false;
     if (ball.motion != BallDescription::Motion::dynamic) continue;
     ball.position += std::exchange(ball.pushed, Vec3(0, 0, 0));
     ball.velocity += std::exchange(ball.sped_up, Vec3(0, 0, 0));

@@ -22,7 +22,7 @@ struct Ball {
   Vec3 position{0, 0, 0};  ///< at the end of the step, m
   Vec3 start{0, 0, 0};     ///< at its start, m
   Vec3 velocity{0, 0, 0};  ///< mean over the step, m/s: what the cloth feels
-  int steps_to_clear = 0;  ///< Solid::steps_to_clear
+  bool just_put = true;    ///< Solid::just_put
   Vec3 pushed{0, 0, 0};    ///< from its way by the cloths during the step, m; taken up when the step ends
   Vec3 sped_up{0, 0, 0};   ///< the same of its velocity, m/s
   int sharing = 1;         ///< cloths that see a share of its mass in this step

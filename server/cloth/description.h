@@ -11,6 +11,7 @@
 #include "cloth/grid.h"
 #include "cloth/level_policy.h"
 #include "cloth/material.h"
+#include "cloth/relevance.h"
 #include "cloth/vec3.h"
 #include "cloth/wind/wind.h"
 
@@ -87,9 +88,17 @@ struct InflationEffect {
   static constexpr const char* kName = "inflation";
 };
 
+/// Cloth tears where it is pulled too hard: a structural link breaks at the end of a step in which the sheet
+/// carries more tension across its middle, per metre of cloth, than this (tear/tearing.h).
+struct TearingEffect {
+  double warp = 1000;  ///< strength along u, N/m; finite, > 0
+  double weft = 1000;  ///< along v, N/m
+  static constexpr const char* kName = "tearing";
+};
+
 using EffectDescription =
     std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
-                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect>;
+                 PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect, TearingEffect>;
 
 // --- Things in the scene ---
 
@@ -137,6 +146,7 @@ struct ClothDescription {
   Material material;
   Discretization discretization = Discretization::continuum;
   std::vector<PinRegion> pins;
+  Relevance relevance;
 };
 
 struct BallDescription {

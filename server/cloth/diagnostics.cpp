@@ -1,5 +1,8 @@
 #include "cloth/diagnostics.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "cloth/kernels/node_kernels.h"
 
 namespace weft {
@@ -64,6 +67,19 @@ Vec3 centre(const Particles<Real>& particles) {
   return sum / particles.grid().nodes();
 }
 
+template <class Real>
+BoundingSphere bounding_sphere(const Particles<Real>& particles) {
+  BoundingSphere sphere{centre(particles), 0};
+  const Grid& grid = particles.grid();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      sphere.radius = std::max(sphere.radius, (particles.position_at(r, c) - sphere.centre).squaredNorm());
+    }
+  }
+  sphere.radius = std::sqrt(sphere.radius);
+  return sphere;
+}
+
 template Vec3 linear_momentum<float>(const Particles<float>&);
 template Vec3 linear_momentum<double>(const Particles<double>&);
 template Vec3 angular_momentum<float>(const Particles<float>&);
@@ -76,5 +92,7 @@ template bool is_finite<float>(const Particles<float>&);
 template bool is_finite<double>(const Particles<double>&);
 template Vec3 centre<float>(const Particles<float>&);
 template Vec3 centre<double>(const Particles<double>&);
+template BoundingSphere bounding_sphere<float>(const Particles<float>&);
+template BoundingSphere bounding_sphere<double>(const Particles<double>&);
 
 }  // namespace weft

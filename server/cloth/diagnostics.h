@@ -1,5 +1,6 @@
 #pragma once
 #include "cloth/particles.h"
+#include "cloth/relevance.h"
 
 namespace weft {
 
@@ -21,5 +22,8 @@ bool is_finite(const Particles<Real>& particles);
 /// Mean of the node positions, m: the cloth's centre for Eq. 7.
 template <class Real>
 Vec3 centre(const Particles<Real>& particles);
+/// The smallest sphere around that centre which holds all nodes.
+template <class Real>
+BoundingSphere bounding_sphere(const Particles<Real>& particles);
 
 }  // namespace weft

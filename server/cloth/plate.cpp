@@ -18,7 +18,8 @@ double clamp_factor(Real before, Real here, Real after) {
 }  // namespace
 
 template <class Real>
-Plate<Real>::Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>& inverse_mass)
+Plate<Real>::Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>& inverse_mass,
+                   const TornLinks* torn)
     : rigidity_(rigidity),
       size_(size),
       free_(inverse_mass.grid()),
@@ -52,12 +53,27 @@ Plate<Real>::Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>
       if (r + 1 < rows && c + 1 < cols) twist_.at(r, c) = static_cast<Real>(twist);
     }
   }
+  if (torn != nullptr) leave_out(*torn);
   for_each_stencil([&](double stiffness, const auto& nodes) {
     // (sum a_i x_i)^2 <= sum |a_j| sum |a_i| x_i^2, and sum |a_j| = 4 for every stencil.
     for (const StencilNode& node : nodes) {
       smoother_.at(node.row, node.col) += static_cast<Real>(2 * stiffness * std::abs(node.weight));
     }
   });
+}
+
+template <class Real>
+void Plate<Real>::leave_out(const TornLinks& torn) {
+  for (int r = 0; r < grid().rows; ++r) {
+    for (int c = 0; c < grid().cols; ++c) {
+      const auto clear = [&](Field<Real>& stiffness, bool gone) {
+        if (gone) stiffness.at(r, c) = Real(0);
+      };
+      clear(u_, c > 0 && c + 1 < grid().cols && torn.torn(r, c - 1, 0, 2));
+      clear(v_, r > 0 && r + 1 < grid().rows && torn.torn(r - 1, c, 2, 0));
+      clear(twist_, r + 1 < grid().rows && c + 1 < grid().cols && torn.face_torn(r, c));
+    }
+  }
 }
 
 template <class Real>

@@ -4,6 +4,7 @@
 #include "cloth/kernels/plate_kernels.h"
 #include "cloth/material.h"
 #include "cloth/particles.h"
+#include "cloth/tear/torn_links.h"
 
 namespace weft {
 
@@ -20,8 +21,10 @@ namespace weft {
 template <class Real>
 class Plate {
  public:
-  /// `size` is the cloth's width and height, m; nodes of inverse mass 0 are held.
-  Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>& inverse_mass);
+  /// `size` is the cloth's width and height, m; nodes of inverse mass 0 are held. Where the sheet is torn it
+  /// bears no moment; nullptr: it is whole.
+  Plate(const Rigidity& rigidity, const Vec2& size, const Field<Real>& inverse_mass,
+        const TornLinks* torn = nullptr);
 
   const Grid& grid() const { return free_.grid(); }
   /// Adds its force on every free node, N.
@@ -35,8 +38,8 @@ class Plate {
   kernels::PlateStencils<Real> stencils() const { return {u_.row(0), v_.row(0), twist_.row(0)}; }
   /// D with K <= 2 D, at every node: what block Jacobi divides by, N/m.
   const Field<Real>& smoother() const { return smoother_; }
-  /// The same sheet on every second node, with the nodes held that are so here. For grids of odd rows and
-  /// columns.
+  /// The same sheet, whole, on every second node, with the nodes held that are so here. For grids of odd rows
+  /// and columns.
   Plate coarser() const;
 
   /// A node of a stencil; the difference that a stencil resists is the sum of weight times position.
@@ -49,6 +52,8 @@ class Plate {
   void for_each_stencil(Visit visit) const;
 
  private:
+  void leave_out(const TornLinks& torn);
+
   Rigidity rigidity_;
   Vec2 size_;
   Field<Real> free_;  ///< 1, or 0 where held

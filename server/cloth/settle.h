@@ -3,16 +3,29 @@
 
 namespace weft {
 
-/// After a level change, for methods that would turn into motion what the change puts into the springs: nodes
-/// taken over from a finer level leave the springs across folds compressed, new ones lie on chords, in solids
-/// too. Lets springs and plate relax without motion: steps of backward Euler from rest, with no effect at
-/// work, among the solids as they are when the step begins; the velocities stay as they were. Each lasts as
-/// long as a wave of stretch takes to run across the sheet, sqrt(density / structural) times its size
-/// (`longest`, s, at most): what is stretched evens out, folds keep their shape.
-///
-/// Nothing happens to a sheet without structural springs, and if no relaxed state is found.
+/// What would put energy into the springs that is no motion.
+enum class Unsettled {
+  no,
+  /// Nodes taken over from a finer level leave the springs across folds compressed, new ones lie on chords,
+  /// in solids too: for methods that would turn that into motion.
+  by_level,
+  /// A solid was put onto nodes: a ball of twice the size in a drape has a fifth of a metre to lift them, and
+  /// a step that did so would send the hem off at 25 m/s.
+  by_solid,
+};
+
+/// Whether a solid has just been put onto free nodes, as all are when the step begins.
 template <class Real>
-void settle(Particles<Real>& particles, const Springs<Real>& springs, const Plate<Real>* plate,
+bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& solids);
+
+/// Lets springs and plate relax without motion: steps of backward Euler from rest, with no effect at work,
+/// among the solids as they are when the step begins; the velocities stay as they were. Each lasts as long as
+/// a wave of stretch takes to run across the sheet, sqrt(density / structural) times its size (`longest`, s,
+/// at most): what is stretched evens out, folds keep their shape.
+///
+/// Nothing happens if no relaxed state is found.
+template <class Real>
+void settle(Particles<Real>& particles, Unsettled by, const Springs<Real>& springs, const Plate<Real>* plate,
             const ClothDescription& cloth, Contact<Real>* contact, const std::vector<Solid>& solids,
             double longest);
 

@@ -61,6 +61,9 @@ class Simulation {
 
   // Commands: each takes effect in the next step.
   void request_level(std::size_t cloth, int level) { cloths_[cloth].request_level(level); }
+  /// The cloth's steps are left out, or no longer (Cloth::set_resting): for cloths that nobody sees. Until
+  /// reset(). Whoever records commands records this one, too.
+  void set_resting(std::size_t cloth, bool resting) { cloths_[cloth].set_resting(resting); }
   void set_wind(const Wind& wind) { air_.change(wind, time()); }
   /// How the air moves in one of the wind's zones, m/s.
   void set_wind_zone(std::size_t zone, const Vec3& velocity);

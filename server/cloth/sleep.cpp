@@ -1,5 +1,7 @@
 #include "cloth/sleep.h"
 
+#include <utility>
+
 namespace weft {
 namespace {
 
@@ -19,15 +21,24 @@ Eigen::AlignedBox3d box_around(const Particles<Real>& particles, double margin) 
 
 }  // namespace
 
-bool Sleep::through(const std::vector<Solid>& solids, const Air& air) {
-  if (threshold_ <= 0) return false;
-  const Vec3 wind = air.wind().velocity();
-  if (!air.steady() || wind != wind_) {
-    wind_ = wind;
-    wake();
+template <class Real>
+bool Sleep::through(const Particles<Real>& particles, const std::vector<Solid>& solids, const Air& air) {
+  const bool roused = std::exchange(roused_, false);
+  if (threshold_ > 0) {
+    const Vec3 wind = air.wind().velocity();
+    if (!air.steady() || wind != wind_) {
+      wind_ = wind;
+      rise();
+    }
+    if (asleep_ && neighbours(solids) != neighbours_) rise();
   }
-  if (asleep_ && neighbours(solids) != neighbours_) wake();
-  return asleep_;
+  if (resting_ && !asleep_) {
+    if (!left_out_) box_ = box_around(particles, kMargin);
+    left_out_ = !roused && neighbours(solids).has_value();
+  } else {
+    left_out_ = false;
+  }
+  return asleep_ || left_out_;
 }
 
 template <class Real>
@@ -84,6 +95,8 @@ std::optional<std::vector<Sleep::Neighbour>> Sleep::neighbours(const std::vector
   return near;
 }
 
+template bool Sleep::through(const Particles<float>&, const std::vector<Solid>&, const Air&);
+template bool Sleep::through(const Particles<double>&, const std::vector<Solid>&, const Air&);
 template void Sleep::stepped(double, double, const Particles<float>&, const std::vector<Solid>&);
 template void Sleep::stepped(double, double, const Particles<double>&, const std::vector<Solid>&);
 

@@ -12,6 +12,8 @@ namespace weft {
 /// Tells whether a cloth sleeps: one that has hardly moved for a while is left as it is, to the bit, until
 /// something comes near. What counts is how far its nodes get, not how fast they are at any moment: rounding
 /// shakes stiff cloth for ever, by micrometres but at millimetres a second.
+///
+/// A cloth that is told to rest sleeps though it moves, in any wind; its time stands still.
 class Sleep {
  public:
   /// Steps in a row after which all nodes must lie as near to where they were after the first as the
@@ -24,14 +26,22 @@ class Sleep {
   /// Sleeps when no node gets on at more than `speed`, m/s; 0: never.
   explicit Sleep(double speed) : threshold_(speed) {}
 
-  bool asleep() const { return asleep_; }
+  bool asleep() const { return asleep_ || (left_out_ && resting_ && !roused_); }
+  /// The next step is made, and those after it until the cloth is at rest again; of a cloth told to rest the
+  /// next one only.
   void wake() {
-    asleep_ = false;
-    watched_.clear();
+    rise();
+    roused_ = true;
   }
+  void set_resting(bool resting) { resting_ = resting; }
+  bool resting() const { return resting_; }
+  /// The last step was left out though the cloth may move, as it was told to rest.
+  bool left_out() const { return left_out_; }
   /// Before a step: true if the cloth sleeps through it. It wakes when the wind changes, and when near it a
-  /// solid moves, yields, came or went. In gusts and turbulence it never sleeps.
-  bool through(const std::vector<Solid>& solids, const Air& air);
+  /// solid moves, yields, came or went. In gusts and turbulence it never sleeps. A cloth told to rest sleeps
+  /// but for the steps in which a solid near it moves or yields.
+  template <class Real>
+  bool through(const Particles<Real>& particles, const std::vector<Solid>& solids, const Air& air);
   /// After a step of dt, s, that left the cloth at `speed` at most, m/s: falls asleep if it is time.
   template <class Real>
   void stepped(double speed, double dt, const Particles<Real>& particles, const std::vector<Solid>& solids);
@@ -46,6 +56,10 @@ class Sleep {
   /// The solids near the box; nothing if one of them moves or might.
   std::optional<std::vector<Neighbour>> neighbours(const std::vector<Solid>& solids) const;
 
+  void rise() {
+    asleep_ = false;
+    watched_.clear();
+  }
   /// The nodes' positions now begin a quiet time; what was watched is forgotten.
   template <class Real>
   void watch(const Particles<Real>& particles);
@@ -57,8 +71,11 @@ class Sleep {
   int quiet_steps_ = 0;
   std::vector<Vec3> watched_;  ///< positions when the quiet time began; empty while the cloth plainly moves
   bool asleep_ = false;
+  bool resting_ = false;  ///< it is told to
+  bool left_out_ = false;
+  bool roused_ = false;  ///< since the last step
   Vec3 wind_{0, 0, 0};
-  Eigen::AlignedBox3d box_;  ///< with the margin
+  Eigen::AlignedBox3d box_;  ///< with the margin, as the cloth lay when it fell asleep or was left out
   std::vector<Neighbour> neighbours_;
 };
 

@@ -13,12 +13,14 @@
 namespace weft {
 namespace {
 
-/// Calls visit(d, stiffness) for every spring of the family, d from end j to end i.
+/// Calls visit(d, stiffness) for every spring of the family that is not cut, d from end j to end i.
 template <class Real, class Visit>
-void for_each_spring(const SpringFamily& family, const VectorField<Real>& position, Visit visit) {
+void for_each_spring(const Springs<Real>& springs, const SpringFamily& family,
+                     const VectorField<Real>& position, Visit visit) {
   const Grid& grid = position.grid();
   for (int r = 0; r + family.rows < grid.rows; ++r) {
     for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid.cols; ++c) {
+      if (springs.torn(family, r, c)) continue;
       const int r2 = r + family.rows, c2 = c + family.cols;
       const Vec3 d(double(position.x.at(r, c)) - double(position.x.at(r2, c2)),
                    double(position.y.at(r, c)) - double(position.y.at(r2, c2)),
@@ -110,7 +112,7 @@ Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiff
 template <class Real>
 Springs<Real>::Springs(const Material& material, Discretization discretization, const Vec2& size,
                        const Grid& grid, double damping_time, bool limited)
-    : damping_time_(damping_time), limited_(limited) {
+    : damping_time_(damping_time), limited_(limited), grid_(grid) {
   const double hx = size.x() / (grid.cols - 1);
   const double hy = size.y() / (grid.rows - 1);
   const double diagonal = std::hypot(hx, hy);
@@ -136,18 +138,35 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
   add(0, 2, 2 * hx, material.bending, hy / (2 * hx));
   add(2, 0, 2 * hy, material.bending, hx / (2 * hy));
 
-  const auto stride = static_cast<std::size_t>(grid.stride);
-  columns_.assign(kKinds * stride, Real(0));
-  for (const SpringFamily& family : families_) {
-    Real* row = columns_.data() + kind_of(family) * stride;
-    // Springs that lie in a border row are scaled by the kernel.
-    for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid.cols; ++c) {
-      const bool in_border_column = family.cols == 0 && (c == 0 || c == grid.cols - 1);
-      row[c] = static_cast<Real>(in_border_column ? border_share * family.stiffness : family.stiffness);
-    }
-  }
+  fill_columns();
   work_.assign(kernels::spring_work_size(grid), Real(0));
   if (damping_time_ > 0 || limited_) damping_work_.assign(kernels::strain_damping_work_size(grid), Real(0));
+}
+
+template <class Real>
+void Springs<Real>::tear(std::shared_ptr<const TornLinks> torn) {
+  torn_ = std::move(torn);
+  fill_columns();
+}
+
+template <class Real>
+void Springs<Real>::fill_columns() {
+  const auto stride = static_cast<std::size_t>(grid_.stride);
+  const int rows = torn_ ? grid_.rows : 1;
+  columns_.assign(kKinds * stride * static_cast<std::size_t>(rows), Real(0));
+  for (const SpringFamily& family : families_) {
+    for (int r = 0; r < rows && (rows == 1 || r + family.rows < grid_.rows); ++r) {
+      Real* row = columns_.data() +
+                  (kind_of(family) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(r)) * stride;
+      // Springs that lie in a border row are scaled by the kernel.
+      for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid_.cols; ++c) {
+        const bool in_border_column = family.cols == 0 && (c == 0 || c == grid_.cols - 1);
+        if (torn(family, r, c)) continue;
+        row[c] =
+            static_cast<Real>(in_border_column ? family.border_share * family.stiffness : family.stiffness);
+      }
+    }
+  }
 }
 
 template <class Real>
@@ -157,8 +176,9 @@ kernels::SpringLattice<Real> Springs<Real>::lattice(const Grid& grid) const {
                                                                   &lattice.falling,   &lattice.rising,
                                                                   &lattice.bending_u, &lattice.bending_v};
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    of_kind[kind]->stiffness = columns_.data() + kind * static_cast<std::size_t>(grid.stride);
+    of_kind[kind]->stiffness = columns_.data() + kind * (columns_.size() / kKinds);
   }
+  lattice.row_step = torn_ ? grid.stride : 0;
   for (const SpringFamily& family : families_) {
     of_kind[kind_of(family)]->rest_length = static_cast<Real>(family.rest_length);
     lattice.has_shear = lattice.has_shear || kind_of(family) == kFalling;
@@ -175,7 +195,10 @@ template <class Real>
 void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
   if (families_.empty()) return;
   const Grid& grid = position.grid();
-  if (limited_) {
+  if (torn_) {
+    kernels::add_torn_spring_forces(lattice(grid), grid, kernels::components(position),
+                                    kernels::components(force), work_.data());
+  } else if (limited_) {
     kernels::add_limited_spring_forces(lattice(grid), grid, kernels::components(position),
                                        kernels::components(force), work_.data());
   } else {
@@ -189,9 +212,9 @@ void Springs<Real>::add_damping(const VectorField<Real>& position, kernels::Comp
                                 double time, VectorField<Real>& force) const {
   if (damping_time_ == 0 || families_.empty()) return;
   const Grid& grid = position.grid();
-  kernels::add_strain_damping(lattice(grid), grid, kernels::components(position), change,
-                              static_cast<Real>(damping_time_ / time), kernels::components(force),
-                              damping_work_.data());
+  const auto add = torn_ ? kernels::add_torn_strain_damping<Real> : kernels::add_strain_damping<Real>;
+  add(lattice(grid), grid, kernels::components(position), change, static_cast<Real>(damping_time_ / time),
+      kernels::components(force), damping_work_.data());
 }
 
 template <class Real>
@@ -199,9 +222,9 @@ void Springs<Real>::add_limit_damping(const VectorField<Real>& position, const V
                                       double time, VectorField<Real>& force) const {
   if (!limited_ || families_.empty()) return;
   const Grid& grid = position.grid();
-  kernels::add_limit_damping(lattice(grid), grid, kernels::components(position),
-                             kernels::components(velocity), static_cast<Real>(time),
-                             kernels::components(force), damping_work_.data());
+  const auto add = torn_ ? kernels::add_torn_limit_damping<Real> : kernels::add_limit_damping<Real>;
+  add(lattice(grid), grid, kernels::components(position), kernels::components(velocity),
+      static_cast<Real>(time), kernels::components(force), damping_work_.data());
 }
 
 template <class Real>
@@ -211,7 +234,9 @@ void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> 
   const kernels::SpringLattice<Real> springs = lattice(grid);
   const Real axial = static_cast<Real>(1 + damping_time_ / h);
   Bands(grid).for_each([&](kernels::RowRange rows, int) {
-    if (limited_) {
+    if (torn_) {
+      kernels::linearise_torn_springs(springs, grid, position, axial, links, rows);
+    } else if (limited_) {
       kernels::linearise_limited_springs(springs, grid, position, axial, links, rows);
     } else {
       kernels::linearise_springs(springs, grid, position, axial, links, rows);
@@ -223,6 +248,7 @@ template <class Real>
 kernels::SpringModelError Springs<Real>::model_error(const Grid& grid,
                                                      kernels::Components<const Real> position,
                                                      kernels::Components<const Real> change) const {
+  if (torn_) return kernels::torn_spring_model_error(lattice(grid), grid, position, change);
   return limited_ ? kernels::limited_spring_model_error(lattice(grid), grid, position, change)
                   : kernels::spring_model_error(lattice(grid), grid, position, change);
 }
@@ -244,7 +270,7 @@ template <class Real>
 double Springs<Real>::energy(const VectorField<Real>& position) const {
   double sum = 0;
   for (const SpringFamily& family : families_) {
-    for_each_spring(family, position, [&](const Vec3& d, double stiffness) {
+    for_each_spring(*this, family, position, [&](const Vec3& d, double stiffness) {
       sum += spring_energy(d, family.rest_length, stiffness, family.limit);
     });
   }
@@ -258,7 +284,7 @@ StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& posit
   std::int64_t count = 0;
   for (const SpringFamily& family : families_) {
     if (kind_of(family) != kAlongU && kind_of(family) != kAlongV) continue;
-    for_each_spring(family, position, [&](const Vec3& d, double) {
+    for_each_spring(*this, family, position, [&](const Vec3& d, double) {
       const double one = std::abs(d.norm() - family.rest_length) / family.rest_length;
       strain.max = std::max(strain.max, one);
       sum += one;

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "cloth/kernels/link_kernels.h"
@@ -7,6 +8,7 @@
 #include "cloth/material.h"
 #include "cloth/particles.h"
 #include "cloth/spring_family.h"
+#include "cloth/tear/torn_links.h"
 
 namespace weft {
 
@@ -40,6 +42,13 @@ class Springs {
           double damping_time = 0, bool limited = false);
 
   const std::vector<SpringFamily>& families() const { return families_; }
+
+  /// Springs that are cut are there no more; nullptr: none is.
+  void tear(std::shared_ptr<const TornLinks> torn);
+  const std::shared_ptr<const TornLinks>& torn() const { return torn_; }
+  bool torn(const SpringFamily& family, int r, int c) const {
+    return torn_ != nullptr && torn_->torn(r, c, family.rows, family.cols);
+  }
 
   /// Adds Eq. 1's force on every node, N.
   void add_forces(const VectorField<Real>& position, VectorField<Real>& force) const;
@@ -77,12 +86,16 @@ class Springs {
 
  private:
   kernels::SpringLattice<Real> lattice(const Grid& grid) const;
+  /// Whole rows of stiffness, where no spring lies beside the grid.
+  void fill_columns();
   double squared_frequency(const Field<Real>& mass, bool stiffened) const;
 
   std::vector<SpringFamily> families_;
   double damping_time_ = 0;
   bool limited_ = false;
-  /// Stiffness by column of each family's first end, a row for each of the six.
+  Grid grid_;
+  std::shared_ptr<const TornLinks> torn_;  ///< nullptr while the cloth is whole
+  /// Stiffness by column of each family's first end, a row for each of the six; where torn, a grid for each.
   std::vector<Real, AlignedAllocator<Real>> columns_;
   /// The force kernel's work rows: no state, but one owner at a time.
   mutable std::vector<Real, AlignedAllocator<Real>> work_;

@@ -43,6 +43,14 @@ std::uint64_t state_hash(const Simulation<Real>& simulation) {
     hash.add(cloth.level());
     hash.add(cloth.particles().position);
     hash.add(cloth.particles().velocity);
+    if (cloth.walls() != nullptr) {  // a whole cloth has none to tell
+      const Grid& grid = cloth.walls()->finest().grid();
+      for (int r = 0; r < grid.rows; ++r) {
+        for (int c = 0; c < grid.cols; ++c) {
+          for (const bool along_u : {true, false}) hash.add(cloth.walls()->finest().torn({r, c, along_u}));
+        }
+      }
+    }
   }
   for (const Ball& ball : simulation.colliders().balls()) {
     hash.add(ball.id);

@@ -55,6 +55,8 @@ void FrameEncoder::capture(const Simulation<float>& simulation, const protocol::
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     cloths_[i].level = simulation.cloths()[i].level();
     cloths_[i].position = simulation.cloths()[i].particles().position;
+    cloths_[i].walls.reset();
+    if (const Walls* walls = simulation.cloths()[i].walls()) cloths_[i].walls = *walls;
   }
   stamp_ = stamp;
   forget_encodings();
@@ -84,11 +86,20 @@ const Record& FrameEncoder::cloth_record(std::size_t cloth, int level) {
   ShownCloth& shown = cloths_[cloth];
   Record& record = shown.records[level];
   if (record) return record;
-  auto bytes = protocol::encode_cloth_record(stamp_, static_cast<std::uint32_t>(cloth), level, shown.level,
-                                             kBits, coarsened(shown.position, shown.level, level));
+  const auto index = static_cast<std::uint32_t>(cloth);
+  const protocol::GridView grid = coarsened(shown.position, shown.level, level);
+  auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid);
+  std::size_t last = 0;  // where the last of the two begins
+  const auto torn = shown.walls ? shown.walls->at(level).torn_faces() : std::vector<std::uint32_t>{};
+  if (!torn.empty()) {
+    last = bytes.size();
+    const auto tears =
+        protocol::encode_tears_record(stamp_, index, level, shown.level, grid.rows, grid.cols, torn);
+    bytes.insert(bytes.end(), tears.begin(), tears.end());
+  }
   // Last for every viewer or for none: the records of one message differ between viewers only in their
   // levels.
-  if (balls_.empty() && obstacles_.empty() && cloth + 1 == cloths_.size()) protocol::mark_last(bytes, 0);
+  if (balls_.empty() && obstacles_.empty() && cloth + 1 == cloths_.size()) protocol::mark_last(bytes, last);
   record = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
   ++encodes_;
   return record;

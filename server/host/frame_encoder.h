@@ -2,6 +2,7 @@
 /// The state that viewers are shown, and its encodings: one a cloth and level, whoever asks.
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cloth/simulation.h"
@@ -36,8 +37,10 @@ class FrameEncoder {
   struct ShownCloth {
     int level = 0;
     VectorField<float> position;
+    std::optional<Walls> walls;     ///< if it is torn
     std::map<int, Record> records;  ///< by level
   };
+  /// With its tears, if it has any.
   const Record& cloth_record(std::size_t cloth, int level);
   /// Balls, then obstacles; no record for none.
   const std::vector<Record>& list_records();

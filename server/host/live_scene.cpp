@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/diagnostics.h"
 #include "host/scene_messages.h"
 
 namespace weft::host {
@@ -26,7 +27,8 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
   }
   frame_stride_ =
       std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
-  find_centres();
+  unseen_steps_ = std::max(1, static_cast<int>(std::lround(kUnseenTime / scene_.simulation.time_step)));
+  find_bounds();
   encoder_.capture(simulation_, {});
 }
 
@@ -53,21 +55,35 @@ void LiveScene::remove_viewer(const Viewer* viewer, std::uint64_t visit) {
   });
 }
 
-void LiveScene::look(Seat& seat) {
+void LiveScene::look(Seat& seat, int steps) {
   const LevelPolicy& policy = scene_.simulation.level_policy;
   const std::size_t cloths = simulation_.cloths().size();
   const bool first = seat.policy_levels.empty();
   seat.distances.resize(cloths);
   seat.policy_levels.resize(cloths);
   seat.levels.resize(cloths);
+  seat.steps_unseen.resize(cloths, 0);
   for (std::size_t i = 0; i < cloths; ++i) {
-    const double distance = seat.eye ? (*seat.eye - centres_[i]).norm() : seat.distance;
+    const double distance = seat.eye ? (*seat.eye - bounds_[i].centre).norm() : seat.distance;
     const int level = first ? policy.level_at(distance) : policy.level_at(distance, seat.policy_levels[i]);
     const ClothDescription& cloth = scene_.simulation.cloths[i];
     seat.distances[i] = distance;
     seat.policy_levels[i] = level;
     seat.levels[i] = std::min(std::clamp(level, cloth.min_level, cloth.max_level), finest_sendable_[i]);
+    seat.steps_unseen[i] = sees(seat, i) ? 0 : std::min(seat.steps_unseen[i] + steps, unseen_steps_ + 1);
+    if (lost(seat, i)) seat.levels[i] = std::min(cloth.min_level, seat.levels[i]);
   }
+}
+
+bool LiveScene::sees(const Seat& seat, std::size_t cloth) const {
+  const Relevance& relevance = scene_.simulation.cloths[cloth].relevance;
+  if (relevance.unseen == Relevance::Unseen::step) return true;
+  const BoundingSphere& bounds = bounds_[cloth];
+  return seat.distances[cloth] - bounds.radius <= relevance.far && (!seat.cone || seat.cone->touches(bounds));
+}
+
+bool LiveScene::unseen(std::size_t cloth) const {
+  return std::all_of(seats_.begin(), seats_.end(), [&](const Seat& seat) { return lost(seat, cloth); });
 }
 
 void LiveScene::request_levels() {
@@ -81,6 +97,10 @@ void LiveScene::request_levels() {
   const int cap = quality_.level_cap().value_or(kMaxLevel);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Cloth<float>& cloth = simulation_.cloths()[i];
+    // One that rests keeps its level, and so all it has.
+    const bool rests = cloth.description().relevance.unseen == Relevance::Unseen::sleep && unseen(i);
+    simulation_.set_resting(i, rests);
+    if (rests) continue;
     const int finest = std::min(wanted[i], cap);
     cloth.request_level(finest);
     // A scene that stands still gets finer at once, so that looking closer shows something. It does not get
@@ -121,7 +141,7 @@ void LiveScene::take_study(StudyOutcome outcome) {
 bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || waiting_steps_ > 0); }
 
 void LiveScene::step() {
-  for (Seat& seat : seats_) look(seat);
+  for (Seat& seat : seats_) look(seat, 1);
   request_levels();
   simulation_.step();
   tell_guard_events();
@@ -129,7 +149,7 @@ void LiveScene::step() {
   const bool as_asked = std::all_of(cloths.begin(), cloths.end(),
                                     [](const Cloth<float>& cloth) { return cloth.steps_as_asked(); });
   if (as_asked) quality_.stepped(simulation_.profile().total * 1e3);  // no other step tells what it takes
-  find_centres();
+  find_bounds();
   remove_lost_balls();
   const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
   state_newer_ = true;
@@ -165,9 +185,13 @@ void LiveScene::remove_lost_balls() {
   }
 }
 
-void LiveScene::find_centres() {
-  centres_.clear();
-  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) centres_.push_back(simulation_.centre(i));
+void LiveScene::find_bounds() {
+  bounds_.clear();
+  for (const Cloth<float>& cloth : simulation_.cloths()) {
+    const bool in_full = cloth.description().relevance.unseen != Relevance::Unseen::step;
+    bounds_.push_back(in_full ? bounding_sphere(cloth.particles())
+                              : BoundingSphere{centre(cloth.particles()), 0});
+  }
 }
 
 // --- What viewers are sent ---
@@ -201,6 +225,7 @@ void LiveScene::send_stats(double rate) {
   for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
     state.substeps.push_back(simulation_.report(i).substeps);
     state.levels.push_back(encoder_.simulated_level(i));
+    state.unseen.push_back(unseen(i));
   }
   state.quality = quality_.stats_json();
   state.guard = guard_.stats_json();

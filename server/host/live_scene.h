@@ -39,6 +39,9 @@ class LiveScene {
   static constexpr std::size_t kMaxPins = 256;
   /// Steps that may be asked for at once and wait.
   static constexpr int kMaxWaitingSteps = 600;
+  /// Simulated, s, that a viewer must not have seen a cloth before less is done for it: who looks around
+  /// loses nothing. Counted in steps, so that it is the same when commands are made again.
+  static constexpr double kUnseenTime = 1.0;
 
   LiveScene(scene::Scene scene, const protocol::Limits& limits);
 
@@ -103,12 +106,19 @@ class LiveScene {
   Outcome carry_out(const protocol::Step& step, Seat& seat);
 
   std::optional<protocol::Error> missing_cloth(std::uint32_t cloth) const;
-  void look(Seat& seat);  ///< Eq. 7 for each cloth, from where the viewer is
+  /// Which cloths the viewer sees, and Eq. 7 for each, from where it is; `steps`: 1 in one, else 0.
+  void look(Seat& seat, int steps = 0);
+  /// True for all cloths for which the scene makes no difference.
+  bool sees(const Seat& seat, std::size_t cloth) const;
+  /// The viewer has not seen the cloth for kUnseenTime.
+  bool lost(const Seat& seat, std::size_t cloth) const { return seat.steps_unseen[cloth] > unseen_steps_; }
+  /// No viewer has.
+  bool unseen(std::size_t cloth) const;
   void request_levels();
   void use_chosen_integrator();
   /// The effects that are not off, now simulated.
   void recompose();
-  void find_centres();
+  void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();
   void remove_lost_balls();
@@ -129,10 +139,11 @@ class LiveScene {
   std::vector<std::string> guard_texts_;
   std::vector<Seat> seats_;
   std::vector<int> finest_sendable_;      ///< by cloth
-  std::vector<Vec3> centres_;             ///< of the cloths
+  std::vector<BoundingSphere> bounds_;    ///< of the cloths; without a radius where nobody asks for it
   std::vector<std::string> effects_off_;  ///< of the scene's, by name, in its order
   std::uint64_t study_number_ = 0;
   int frame_stride_ = 1;  ///< steps from one frame to the next
+  int unseen_steps_ = 1;  ///< kUnseenTime
   std::uint32_t epoch_ = 1;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
   int waiting_steps_ = 0;           ///< asked for by `step`, not made yet

@@ -55,11 +55,16 @@ void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
+  seat.eye.reset();
+  seat.cone.reset();
   if (camera.eye) {
     seat.eye = to_vec3(*camera.eye);
   } else {
-    seat.eye.reset();
     seat.distance = *camera.distance;
+  }
+  if (camera.target) {
+    const Vec3 way = to_vec3(*camera.target) - *seat.eye;
+    seat.cone = ViewCone{*seat.eye, way.stableNormalized(), *camera.half_angle};
   }
   look(seat);
   request_levels();
@@ -272,9 +277,10 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   waiting_steps_ = 0;
   ++epoch_;
   takes_effect_ = 0;
-  find_centres();
+  find_bounds();
   for (Seat& seat : seats_) {
     seat.policy_levels.clear();
+    seat.steps_unseen.clear();
     look(seat);
   }
   state_changed();

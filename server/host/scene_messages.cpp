@@ -12,6 +12,13 @@ using nlohmann::json;
 
 json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Of a cloth that makes a difference between seen and unseen.
+json relevance_json(const Relevance& relevance) {
+  json message{{"unseen", relevance.unseen == Relevance::Unseen::sleep ? "sleep" : "coarse"}};
+  if (std::isfinite(relevance.far)) message["far"] = relevance.far;
+  return message;
+}
+
 json cloths_json(const Simulation<float>& simulation) {
   json cloths = json::array();
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
@@ -23,6 +30,8 @@ json cloths_json(const Simulation<float>& simulation) {
                       {"min_level", cloth.min_level},
                       {"max_level", cloth.max_level},
                       {"pins", pins_json(cloth)}});
+    if (cloth.relevance.unseen != Relevance::Unseen::step)
+      cloths.back()["relevance"] = relevance_json(cloth.relevance);
   }
   return cloths;
 }
@@ -181,6 +190,7 @@ std::string stats_text(const Simulation<float>& simulation, const StatsState& st
                       {"substeps", state.substeps[i]},
                       {"state", state_of(simulation.cloths()[i])},
                       {"distance", seat.distances[i]}});
+    if (state.unseen[i]) cloths.back()["unseen"] = true;
   }
   json message = {{"op", "stats"},
                   {"f", simulation.step_count()},

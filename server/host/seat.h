@@ -5,6 +5,7 @@
 
 #include "cloth/effects/grab.h"
 #include "cloth/level_policy.h"
+#include "cloth/relevance.h"
 #include "cloth/vec3.h"
 #include "host/viewer.h"
 
@@ -16,10 +17,13 @@ struct Seat {
   std::uint64_t visit = 0;
   double distance = 0;            ///< m, to every cloth, unless there is an eye
   std::optional<Vec3> eye;        ///< m
+  std::optional<ViewCone> cone;   ///< what it has in sight; without one every direction
   std::vector<double> distances;  ///< m, to each cloth's centre
   std::vector<int>
       policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
   std::vector<int> levels;  ///< what it is sent
+  std::vector<int>
+      steps_unseen;  ///< in a row, by cloth, in which it did not see it; 0 where that makes no difference
   std::vector<GrabId> grabs;  ///< what it holds
   bool wants_curve = false;   ///< asked for the cost, and is told when it is known
   bool wants_frame = true;    ///< even if the scene did not change

@@ -182,6 +182,23 @@ void read_nodes(Object& object, ClothDescription& cloth) {
   });
 }
 
+void read_relevance(const json& value, const std::string& path, Report& report, Relevance& relevance) {
+  constexpr Range kFar{1e-3, 1e6, "m"};
+  Object object(value, path, report);
+  object.require("unseen", "\"step\", \"coarse\" or \"sleep\"");
+  switch (object.choice("unseen", {"step", "coarse", "sleep"})) {
+    case 1:
+      relevance.unseen = Relevance::Unseen::coarse;
+      break;
+    case 2:
+      relevance.unseen = Relevance::Unseen::sleep;
+      break;
+    default:
+      break;
+  }
+  object.number("far", relevance.far, kFar);
+}
+
 bool is_name(const std::string& text) {
   return !text.empty() &&
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
@@ -231,6 +248,8 @@ ClothDescription read_cloth(const json& value, const std::string& path, Report& 
   object.each("pins", 0, kMaxPins, [&](const json& pin, const std::string& at) {
     cloth.pins.push_back(read_pin(pin, at, report));
   });
+  if (const json* relevance = object.find("relevance"))
+    read_relevance(*relevance, object.path("relevance"), report, cloth.relevance);
   return cloth;
 }
 

@@ -79,6 +79,7 @@ class Qhull {
 TriangleList convex_hull(const std::vector<Vec3>& points) {
   TriangleList hull;
   hull.vertices = points;
+  hull.convex = true;
   if (points.size() >= 4) {
     Qhull qhull(points);
     if (!qhull.failed()) {

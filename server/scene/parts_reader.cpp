@@ -36,6 +36,20 @@ Description read_implicit(Object& object) {
   return implicit;
 }
 
+/// "strength": one number, or along warp and weft.
+TearingEffect read_tearing(Object& object) {
+  constexpr Range kStrength{0.001, 1e9, "N/m"};
+  TearingEffect tearing;
+  const json* strength = object.find("strength");
+  if (strength != nullptr && strength->is_array()) {
+    Vec2 both(tearing.warp, tearing.weft);
+    if (object.vector("strength", both, kStrength)) tearing = {both.x(), both.y()};
+  } else if (object.number("strength", tearing.warp, kStrength)) {
+    tearing.weft = tearing.warp;
+  }
+  return tearing;
+}
+
 }  // namespace
 
 std::optional<EffectDescription> read_effect(const json& value, const std::string& path, Report& report) {
@@ -49,10 +63,10 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kPressure{-1e6, 1e6, "Pa"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (
-      object.choice("type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName,
-                             AerodynamicsEffect::kName, StrainDampingEffect::kName, PlateBendingEffect::kName,
-                             StrainLimitEffect::kName, ClothContactEffect::kName, InflationEffect::kName})) {
+  switch (object.choice(
+      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
+               StrainDampingEffect::kName, PlateBendingEffect::kName, StrainLimitEffect::kName,
+               ClothContactEffect::kName, InflationEffect::kName, TearingEffect::kName})) {
     case 0: {
       GravityEffect gravity;
       object.vector("acceleration", gravity.acceleration, kAcceleration);
@@ -94,6 +108,8 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
       object.number("pressure", inflation.pressure, kPressure);
       return inflation;
     }
+    case 9:
+      return read_tearing(object);
     default:
       object.ignore_rest();
       return std::nullopt;

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {chartColumns, choiceFor, digits, neighbourText, percent} from '../../web/cost_curve.js';
 import {creased} from '../../web/creased.js';
-import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, triangleIndices} from '../../web/grid.js';
+import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, tornNormals, tornOn, triangleIndices} from '../../web/grid.js';
 import {Morph} from '../../web/morph.js';
 import {addressOfScene, readSettings} from '../../web/settings.js';
 import {ThrowSpeed} from '../../web/throw_speed.js';
@@ -33,6 +33,31 @@ test('a surface is round where its faces meet flatly, and sharp at edges', () =>
   near(steep.normals[ridge], -2 / Math.hypot(1, 2), 1e-6);
   near(steep.normals[ridge + 1], 1 / Math.hypot(1, 2), 1e-6);
   near(steep.positions[ridge + 1], -0.1, 1e-6);  // below the ridge: its faces' mean is upwards
+});
+
+test('torn cells are not drawn, nor sides that only they have', () => {
+  // 2 x 2 cells, the upper right one torn: its top and right sides belong to no other.
+  const torn = new Set([1]);
+  assert.deepEqual([...triangleIndices(3, 3, torn)], [0, 3, 1, 1, 3, 4, 3, 6, 4, 4, 6, 7, 4, 7, 5, 5, 7, 8]);
+  const sides = sideIndices(3, 3, torn), pairs = [];
+  for (let i = 0; i < sides.length; i += 2) pairs.push(`${sides[i]}-${sides[i + 1]}`);
+  assert.equal(pairs.length, 12 - 2);
+  for (const gone of ['1-2', '2-5']) assert.ok(!pairs.includes(gone), gone);
+});
+
+test('torn faces of a coarse record are all those within them on a finer grid', () => {
+  const record = {torn: [1, 6], rows: 3, cols: 5};  // 2 x 4 cells
+  assert.deepEqual([...tornOn(record, 3)], [1, 6]);
+  assert.deepEqual([...tornOn(record, 5)].sort((a, b) => a - b), [2, 3, 10, 11, 20, 21, 28, 29]);
+});
+
+test('a torn sheet is lit by the faces that are left', () => {
+  const {positions, rows, cols} = sheet(2);
+  // The right column of nodes has fallen forward, the cells before it are torn: what is left is flat.
+  for (const node of [2, 5, 8]) positions[3 * node + 2] = 5;
+  const normals = tornNormals(positions, rows, cols, new Set([1, 3]), new Float32Array(positions.length));
+  for (const node of [0, 1, 3, 4, 6, 7]) assert.deepEqual([...normals.slice(3 * node, 3 * node + 3)], [0, 0, 1]);
+  assert.deepEqual([...normals.slice(6, 9)], [0, 0, 0]);  // nothing is left around it
 });
 
 test('a cell is two triangles, counter-clockwise from the front', () => {

@@ -1,4 +1,5 @@
 // .obj, .csv and .pc2 byte by byte for a mesh of one cell, and what happens when the level changes.
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -34,6 +35,15 @@ TEST_F(MeshWriterTest, ObjIsNumberedAndHasQuadsThatFaceTheNormal) {
       "f 1/1 3/3 4/4 2/2\n";  // counter-clockwise seen from +z
   EXPECT_EQ(bytes("mesh_0000.obj"), "v 0 0 0.5\nv 1 0 0.5\nv 0 -1 0.5\nv 1 -1 0.5\n" + rest);
   EXPECT_EQ(bytes("mesh_0012.obj"), "v 0 0 -2\nv 1 0 -2\nv 0 -1 -2\nv 1 -1 -2\n" + rest);
+}
+
+TEST_F(MeshWriterTest, ObjLeavesTornFacesOut) {
+  MeshFrame torn = peak();
+  torn.torn_faces = {0, 3};
+  write("torn.obj", {torn});
+  const std::string file = bytes("torn_0007.obj");
+  EXPECT_NE(file.find("f 2/2 5/5 6/6 3/3\nf 4/4 7/7 8/8 5/5\n"), std::string::npos);  // faces 1 and 2
+  EXPECT_EQ(std::count(file.begin(), file.end(), 'f'), 2);
 }
 
 TEST_F(MeshWriterTest, CsvHasALineForEachNode) {

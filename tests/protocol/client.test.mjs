@@ -119,6 +119,7 @@ test('each method sends its operation', async () => {
   const client = await join(server, { window: 0 });
   await client.camera({ distance: 5 });
   await client.camera({ eye: [0, 1, 2] });
+  await client.camera({ eye: [0, 1, 2], target: [0, 1, 0], half_angle: 0.5 });
   assert.equal(await client.addBall({ position: [0, 1, 2], radius: 0.2 }), 7);
   await client.moveBall(7, [1, 1, 1]);
   await client.throwBall(7, [0, 0, -6]);
@@ -149,7 +150,8 @@ test('each method sends its operation', async () => {
   assert.equal(typeof sent.at(-2).t, 'number');
   delete sent.at(-2).t;
   assert.deepEqual(sent, [
-    { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
+    { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] },
+    { op: 'camera', eye: [0, 1, 2], target: [0, 1, 0], half_angle: 0.5 }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
     { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },

@@ -14,8 +14,8 @@ for (const { name, hex, expect } of frames.good) {
     assert.deepEqual(frame.obstacles, expect.obstacles);
     assert.equal(frame.cloths.length, expect.cloths.length);
     frame.cloths.forEach(({ positions, ...header }, i) => {
-      const { cloth, level, simulated_level: simulatedLevel, rows, cols, quantum, positions_f32: bytes } = expect.cloths[i];
-      assert.deepEqual(header, { cloth, level, simulatedLevel, rows, cols, quantum });
+      const { cloth, level, simulated_level: simulatedLevel, rows, cols, quantum, torn, positions_f32: bytes } = expect.cloths[i];
+      assert.deepEqual(header, { cloth, level, simulatedLevel, rows, cols, quantum, torn });
       assert.equal(Buffer.from(positions.buffer).toString('hex'), bytes);
     });
   });

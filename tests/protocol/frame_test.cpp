@@ -55,6 +55,7 @@ TEST(Frame, GoodVectorsDecodeToTheirValues) {
       EXPECT_EQ(cloth.quantisation.quantum, wanted["quantum"].get<float>());
       EXPECT_EQ(cloth.quantisation.origin, (wanted["origin"].get<std::array<float, 3>>()));
       EXPECT_EQ(bytes_of(cloth.positions), from_hex(wanted["positions_f32"]));
+      EXPECT_EQ(cloth.torn_faces, wanted["torn"].get<std::vector<std::uint32_t>>());
     }
 
     ASSERT_EQ(frame.balls.size(), expect["balls"].size());
@@ -136,6 +137,23 @@ TEST(Frame, EncodingGivesTheVectorsBytes) {
     }
   }
   EXPECT_GE(whole_records, 4);
+}
+
+TEST(Frame, TearsRecordGivesTheVectorsBytes) {
+  int records = 0;
+  for (const json& vector : frames()["good"]) {
+    const json& cloth = vector["expect"]["cloths"].empty() ? json() : vector["expect"]["cloths"][0];
+    if (cloth.is_null() || cloth["torn"].empty() || vector["name"] == "torn_wide") continue;
+    const auto bytes = from_hex(vector["hex"]);
+    auto record = encode_tears_record(stamp_of(vector["expect"]), cloth["cloth"], cloth["level"],
+                                      cloth["simulated_level"], cloth["rows"], cloth["cols"],
+                                      cloth["torn"].get<std::vector<std::uint32_t>>());
+    if (vector["expect"]["cloths"].size() == 1) mark_last(record, 0);
+    const auto found = std::search(bytes.begin(), bytes.end(), record.begin(), record.end());
+    EXPECT_NE(found, bytes.end()) << vector["name"];
+    ++records;
+  }
+  EXPECT_EQ(records, 2);
 }
 
 TEST(Frame, BallsRecordGivesTheVectorsBytes) {

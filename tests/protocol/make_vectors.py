@@ -68,6 +68,7 @@ class Cloth:
     def __init__(self, axes, rows, cols, *, bits=16, origin=(0.0, 0.0, 0.0), quantum=2.0 ** -14, width=None, finest=False, **head):
         self.axes, self.rows, self.cols, self.bits, self.origin, self.quantum = axes, rows, cols, bits, origin, quantum
         self.width, self.finest, self.head = width, finest, head
+        self.torn = []
 
     def bytes(self, **more):
         return record(grid_payload(self.axes, self.rows, self.cols, self.width), bits=self.bits, cols=self.cols, rows=self.rows,
@@ -80,7 +81,24 @@ class Cloth:
                 "origin": self.origin, "quantum": self.quantum, "q": self.axes,
                 # True: the lattice is the finest that covers these positions, so an encoder must choose it.
                 "finest": self.finest,
+                "torn": self.torn,
                 "positions_f32": struct.pack(f"<{len(positions)}f", *positions).hex()}
+
+
+def gaps(faces):
+    """Ascending face numbers as unsigned LEB128 gaps."""
+    payload, before = b"", -1
+    for face in faces:
+        gap, before = face - before - 1, face
+        while gap >= 0x80:
+            payload, gap = payload + bytes([gap & 0x7f | 0x80]), gap >> 7
+        payload += bytes([gap])
+    return payload
+
+
+def tears_record(mesh, payload, **head):
+    fields = {"kind": 4, "codec": 3, "bits": 0, "quantum": 0.0, "rows": mesh.rows, "cols": mesh.cols, **mesh.head}
+    return record(payload, **{**fields, **head})
 
 
 def ball_payload(balls):
@@ -155,6 +173,8 @@ def good():
     padded = Cloth([[5, 5, 5, 5], [0] * 4, [1, 2, 3, 4]], 2, 2, width=18)
     first, second = wavy(9, 9, 16, 0.7, 2.0 ** -14), wavy(3, 5, 14, 0.1, 2.0 ** -12)
     first.head, second.head = {"cloth": 0, "level": 3, "simulated_level": 3}, {"cloth": 3, "level": 2, "simulated_level": 4}
+    torn = made(wavy(9, 9, 16, 0.4, 2.0 ** -14), torn=[0, 1, 8, 62, 63], head={"cloth": 0, "level": 3, "simulated_level": 6})
+    example = made(wavy(17, 17, 14, 1.1, 2.0 ** -12), torn=[3, 4, 200])
     return [
         single("small", "2 x 2 on whole metres; computed by hand in tests/protocol/hand_frame.json", SMALL),
         single("ramp", "3 rows of 5: one group of 15, negative origin", ramp),
@@ -173,9 +193,16 @@ def good():
         message("obstacles", "a cloth, a ball and two obstacles that moved",
                 [SMALL.bytes(flags=0), balls_record(BALLS[:1], flags=0), obstacles_record(OBSTACLES)], [SMALL], BALLS[:1], OBSTACLES),
         message("obstacles_only", "obstacles without cloth or balls", [obstacles_record(OBSTACLES)], expected_obstacles=OBSTACLES),
+        message("torn", "a torn cloth and a whole one",
+                [torn.bytes(flags=0), tears_record(torn, gaps(torn.torn), flags=0), second.bytes(flags=0), balls_record(BALLS[:1])],
+                [torn, second], BALLS[:1]),
+        message("torn_last", "the example of codec 3, as the last record",
+                [example.bytes(flags=0), tears_record(example, bytes.fromhex("0300c301"))], [example]),
+        message("torn_wide", "a gap of three bytes where one would do", [SMALL.bytes(flags=0), tears_record(SMALL, b"\x80\x80\x00")],
+                [made(Cloth(SMALL.axes, 2, 2, bits=8, quantum=1.0), torn=[0])]),
         message("unknown_record", "a record of an unknown type, with an unknown codec, is skipped",
                 [record(b"\xff" * 13, kind=200, codec=77, bits=99, flags=0), SMALL.bytes()], [SMALL]),
-        message("unknown_only", "nothing but an unknown record", [record(b"", kind=4)]),
+        message("unknown_only", "nothing but an unknown record", [record(b"", kind=5)]),
         message("long_header", "headers of 72 and 256 bytes: what is not known is skipped",
                 [SMALL.bytes(header_length=72, flags=0), balls_record(BALLS[:2], header_length=256)], [SMALL], BALLS[:2]),
         message("flags", "paused, slow, and an unknown bit", [SMALL.bytes(flags=LAST | PAUSED | SLOW | 0x8000)], [SMALL],
@@ -192,6 +219,9 @@ def bad():
 
     def cloth(body=payload, **head):
         return record(body, **{"bits": 8, "cols": 2, "rows": 2, **head})
+
+    def torn_small(body, **head):
+        return SMALL.bytes(flags=0) + tears_record(SMALL, body, **head)
 
     def one_ball(position=(0.0, 0.0, 0.0), radius=1.0, motion=0, **head):
         return balls_record([(1, position, radius, motion)], **head)
@@ -258,6 +288,15 @@ def bad():
         ("ball_position_nan", one_ball((0.0, nan, 0.0)), "ball is not finite"),
         ("ball_radius_inf", one_ball(radius=inf), "ball is not finite"),
         ("ball_motion_2", one_ball(motion=2), "ball with motion 2"),
+        ("tears_codec_2", torn_small(b"\0", codec=2), "codec 2"),
+        ("tears_alone", tears_record(SMALL, b"\0"), "tears of no mesh before them"),
+        ("tears_other_cloth", torn_small(b"\0", cloth=1), "tears of no mesh before them"),
+        ("tears_other_rows", torn_small(b"\0", rows=3), "tears of no mesh before them"),
+        ("tears_other_cols", torn_small(b"\0", cols=5), "tears of no mesh before them"),
+        ("tears_gap_cut", torn_small(b"\x80"), "unreadable gap between tears"),
+        ("tears_gap_of_four", torn_small(b"\x80\x80\x80\x00"), "unreadable gap between tears"),
+        ("tears_beyond", torn_small(b"\x01"), "tear beyond the mesh"),
+        ("tears_second_beyond", torn_small(b"\0\0"), "tear beyond the mesh"),
         ("obstacles_codec_1", obstacles_record(OBSTACLES, codec=1), "codec 1"),
         ("obstacles_rows_0", obstacles_record(OBSTACLES, rows=0), "obstacles in more than one row"),
         ("obstacles_count_3", obstacles_record(OBSTACLES, cols=3), "obstacles of another length than their number"),

@@ -53,6 +53,7 @@ class Vectors(unittest.TestCase):
                     for name in ("cloth", "level", "simulated_level", "rows", "cols", "quantum"):
                         self.assertEqual(getattr(cloth, name), wanted[name], name)
                     self.assertEqual(cloth.positions.tobytes().hex(), wanted["positions_f32"])
+                    self.assertEqual(cloth.torn, wanted["torn"])
                 balls = [weft.Ball(ball["ball"], tuple(ball["position"]), ball["radius"], ball["motion"]) for ball in expect["balls"]]
                 self.assertEqual(frame.balls, balls)
                 obstacles = [weft.MovedObstacle(each["obstacle"], tuple(each["position"]), tuple(each["quaternion"]))
@@ -163,6 +164,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
         async with Server(lambda message: answers.get(message["op"], {})) as server, await weft.connect(server.url, window=0) as scene:
             await scene.camera(distance=5)
             await scene.camera(eye=[0, 1, 2])
+            await scene.camera(eye=(0, 1, 2), target=(0, 1, 0), half_angle=0.5)
             self.assertEqual(await scene.add_ball([0, 1, 2], 0.2), 7)
             await scene.add_ball((0, 1, 2), 0.2, velocity=(0, 0, 1), motion="dynamic", mass=2)
             await scene.move_ball(7, [1, 1, 1])
@@ -194,7 +196,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
         self.assertEqual([message.pop("id") for message in sent], list(range(1, len(sent) + 1)))
         self.assertIsInstance(sent[-2].pop("t"), float)
         self.assertEqual(sent, [
-            {"op": "camera", "distance": 5}, {"op": "camera", "eye": [0, 1, 2]}, {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2},
+            {"op": "camera", "distance": 5}, {"op": "camera", "eye": [0, 1, 2]},
+            {"op": "camera", "eye": [0, 1, 2], "target": [0, 1, 0], "half_angle": 0.5}, {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2},
             {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2},
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
             {"op": "ball.remove", "ball": 7}, {"op": "obstacle.move", "obstacle": 0, "position": [0, 1, 0]},

@@ -84,6 +84,40 @@ Case shot_through(std::string name, std::string what, double speed, bool pinned)
   return made;
 }
 
+/// Shot through a sheet that is held by two edges and tears easily.
+Case torn_through() {
+  constexpr double kSpeed = 100, kStrength = 50;  // m/s, N/m
+  const auto scene = [](const Setup& setup) {
+    SimulationDescription made = ordinary_sheet(setup, {kTopEdge, {0, 1, 1, 1}});
+    BallDescription fast = ball({0, 0, 1}, 0.1, 0);
+    fast.velocity = {0, 0, -kSpeed};
+    made.balls = {fast};
+    made.effects.push_back(TearingEffect{kStrength, kStrength});
+    return made;
+  };
+  Case made{"S43",
+            "ball of 0.1 m at 100 m/s through a sheet that bears 50 N/m, held by two edges: torn",
+            {{4, scene}}};
+  made.expect = [=](const Setup& setup) {
+    Expectation expect;
+    // As S8's sheet, which is held and does not tear.
+    expect.input = mass_of(scene(setup).cloths[0]) * 4 * kSpeed * kSpeed / 2 + 5000 * kSize * kSize / 2;
+    const double cell = kSize / (1 << setup.level), way = kSpeed * setup.time_step();
+    const double struck = std::max(1.0, std::numbers::pi * 0.1 * 0.1 / (cell * cell));
+    expect.input += struck * (4 * 5000 + 4 * 500) * way * way / 2;
+    // What is left hangs, or flies off: no link bears more than its strength, 1 % of its stiffness, for long.
+    expect.stretch = 0.1;
+    expect.stretch_from = 2;
+    expect.rests = false;
+    return expect;
+  };
+  made.ending = [](const Simulation<float>& simulation, const Setup&) -> Complaint {
+    if (simulation.cloths()[0].walls() != nullptr) return {};
+    return "the sheet is whole; should be torn";
+  };
+  return made;
+}
+
 constexpr double kBallRadius = 0.3, kDrapeSeconds = 3;
 
 /// Falls on a ball in the middle, which friction keeps it on.
@@ -237,6 +271,7 @@ std::vector<Case> ball_cases() {
       shot_through("S8b", "ball of 0.1 m at 200 m/s through the free sheet", 200, false),
       shot_through("S8c", "ball of 0.1 m at 100 m/s through the hung sheet", 100, true),
       shot_through("S8d", "ball of 0.1 m at 200 m/s through the hung sheet", 200, true),
+      torn_through(),
       pinched(
           "S9a", "ball presses the sheet 5 cm into a floor: no node deep in both, freed after",
           [](SimulationDescription& made) {

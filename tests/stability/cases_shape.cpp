@@ -24,7 +24,8 @@ SimulationDescription placed(const Setup& setup, const std::vector<PinRegion>& p
 }
 
 /// Held by two corners, unfolds: strain under 5 % within 3 s. Without self-contact a sheet has many shapes at
-/// rest, some of them inside out: which one it finds is not asked.
+/// rest, some of them inside out: which one it finds is not asked. Hung gently it is strained by 0.5, 1 and
+/// 2 % at levels 4 to 6, all of it at the pins, which are points.
 Case crumpled(std::string name, std::string what, std::function<Place()> places) {
   const auto scene = [places = std::move(places)](const Setup& setup) {
     return placed(setup, {kTopLeft, kTopRight}, places());
@@ -35,18 +36,6 @@ Case crumpled(std::string name, std::string what, std::function<Place()> places)
     Expectation expect;
     expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / 2);
     expect.stretch_from = 3;
-    return expect;
-  };
-  made.beyond_explicit = true;  // springs of almost no length turn round within a substep
-  return made;
-}
-
-/// The same, with nothing to tell the nodes apart: it may stay in the line or plane it is in.
-Case degenerate(std::string name, std::string what, std::function<Place()> places) {
-  Case made = crumpled(std::move(name), std::move(what), std::move(places));
-  made.expect = [](const Setup&) {
-    Expectation expect;
-    expect.stretch = 10;
     return expect;
   };
   return made;
@@ -197,8 +186,8 @@ std::vector<Case> shape_cases() {
       crumpled("S6b", "all nodes on one point, to 0.1 mm: unfolds", almost(on_point)),
       crumpled("S6c", "nodes anywhere in the 2 m box: unfolds", random_places),
       crumpled("S6d", "every second row mirrored, inverted cells, to 0.1 mm: unfolds", almost(mirrored)),
-      degenerate("S6e", "all nodes on one line, exactly: no division by zero", exactly(on_line)),
-      degenerate("S6f", "all nodes on one point, exactly: no division by zero", exactly(on_point)),
+      crumpled("S6e", "all nodes on one line, exactly: no division by zero, unfolds", exactly(on_line)),
+      crumpled("S6f", "all nodes on one point, exactly: no division by zero, unfolds", exactly(on_point)),
       yanked(),
       ribbon(),
       shot_node(),

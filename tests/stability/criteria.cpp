@@ -16,6 +16,7 @@ void read_springs(const Cloth<float>& cloth, Reading& reading) {
     if (family.rows + std::abs(family.cols) != 1) continue;  // structural ones join neighbours
     for (int r = 0; r + family.rows < grid.rows; ++r) {
       for (int c = 0; c + family.cols < grid.cols; ++c) {
+        if (cloth.springs().torn(family, r, c)) continue;
         const Vec3 d = state.position_at(r, c) - state.position_at(r + family.rows, c + family.cols);
         const double strain = d.norm() / family.rest_length - 1;
         reading.stretch = std::max(reading.stretch, strain);

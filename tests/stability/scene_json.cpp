@@ -99,6 +99,7 @@ struct EffectWriter {
   json operator()(const ClothContactEffect& e) const {
     return {{"thickness", e.thickness}, {"friction", e.friction}};
   }
+  json operator()(const TearingEffect& e) const { return {{"strength", {e.warp, e.weft}}}; }
   json operator()(const InflationEffect& e) const { return {{"pressure", e.pressure}}; }
 };
 

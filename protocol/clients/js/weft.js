@@ -28,6 +28,7 @@ export const SUBPROTOCOL = 'weft.v1';
  * @property {number} cols nodes along u
  * @property {number} quantum m: positions are exact to half of it
  * @property {Float32Array} positions x, y, z interleaved, row by row, m
+ * @property {number[]} torn faces not to be drawn, ascending: r * (cols - 1) + c is the cell right of and below node (r, c)
  * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic'}} Ball
  * @typedef {{shape: 'plane', position: Vector, normal: Vector}} Plane
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
@@ -100,6 +101,7 @@ export function decodeFrame(message) {
     const payload = new Uint8Array(view.buffer, view.byteOffset + at + headerBytes, payloadBytes);
     const type = view.getUint8(at + 5);
     if (type === 1) frame.cloths.push(readCloth(view, at, payload));
+    if (type === 4) readTears(view, at, payload, frame.cloths);
     if (type === 2) frame.balls.push(...readBalls(view, at, payload));
     if (type === 3) frame.obstacles.push(...readObstacles(view, at, payload));  // other types: of a later minor version
     at += headerBytes + payloadBytes;
@@ -144,7 +146,28 @@ function readCloth(view, at, payload) {
     cols,
     quantum,
     positions: decodeGrid(payload, rows, cols, bits, origin, quantum),
+    torn: [],
   };
+}
+
+/** Codec 3: gaps between the torn faces of a cloth whose record came before. @param {Cloth[]} cloths */
+function readTears(view, at, payload, cloths) {
+  if (view.getUint8(at + 10) !== 3) malformed(`codec ${view.getUint8(at + 10)}`);
+  const index = view.getUint32(at + 12, true), cols = view.getUint16(at + 40, true), rows = view.getUint16(at + 42, true);
+  const cloth = cloths.find((each) => each.cloth === index);
+  if (!cloth || cloth.cols !== cols || cloth.rows !== rows) malformed('tears of no mesh before them');
+  const faces = (rows - 1) * (cols - 1);
+  for (let i = 0, next = 0; i < payload.length;) {
+    let gap = 0;
+    for (let shift = 0, more = true; more; shift += 7) {
+      if (i === payload.length || shift > 14) malformed('unreadable gap between tears');
+      more = (payload[i] & 0x80) !== 0;
+      gap |= (payload[i++] & 0x7f) << shift;
+    }
+    if (gap >= faces - next) malformed('tear beyond the mesh');
+    cloth.torn.push(next + gap);
+    next += gap + 1;
+  }
 }
 
 /** Codec 1: three axes of zig-zagged residuals in groups of 16. */
@@ -356,7 +379,11 @@ export class WeftClient {
     if (this.#socket?.readyState === 1) this.#socket.send(text);
   }
 
-  /** Tells where this viewer's camera is; remembered, and told again after a reconnection. @param {{distance: number}|{eye: Vector}} where */
+  /**
+   * Tells where this viewer's camera is; remembered, and told again after a reconnection. With an eye, `target` (what it looks at)
+   * and `half_angle` (rad) say what it has in sight; without them it sees in every direction.
+   * @param {{distance: number}|{eye: Vector, target?: Vector, half_angle?: number}} where
+   */
   camera(where) {
     this.#camera = where;
     return this.send('camera', where);

@@ -76,6 +76,8 @@ class Cloth:
     cols: int               #: nodes along u
     quantum: float          #: m; positions are exact to half of it
     positions: array.array  #: float32: x, y, z interleaved, row by row, m
+    #: faces not to be drawn, ascending: row * (cols - 1) + col is the cell right of and below node (row, col)
+    torn: typing.List[int] = dataclasses.field(default_factory=list)
 
     def at(self, row: int, col: int) -> typing.Tuple[float, float, float]:
         """Position of a node, m."""
@@ -154,10 +156,34 @@ def decode_frame(message: bytes) -> Frame:
                 frame.balls += _decode_balls(payload, rows, cols)
             else:
                 frame.obstacles += _decode_obstacles(payload, rows, cols)
+        elif kind == 4:
+            if codec != 3:
+                raise _malformed(f"codec {codec}")
+            _decode_tears(payload, cloth, rows, cols, frame.cloths)
         # Other kinds: of a later minor version.
     if not last:
         raise _malformed("last record is missing")
     return frame
+
+
+def _decode_tears(payload, index, rows, cols, cloths) -> None:
+    """Codec 3: gaps between the torn faces of a cloth whose record came before."""
+    cloth = next((each for each in cloths if each.cloth == index), None)
+    if cloth is None or (cloth.rows, cloth.cols) != (rows, cols):
+        raise _malformed("tears of no mesh before them")
+    faces, face, i = (rows - 1) * (cols - 1), -1, 0
+    while i < len(payload):
+        gap, shift, more = 0, 0, True
+        while more:
+            if i == len(payload) or shift > 14:
+                raise _malformed("unreadable gap between tears")
+            gap |= (payload[i] & 0x7f) << shift
+            more = payload[i] >= 0x80
+            i, shift = i + 1, shift + 7
+        face += gap + 1
+        if face >= faces:
+            raise _malformed("tear beyond the mesh")
+        cloth.torn.append(face)
 
 
 def _decode_grid(payload, rows, cols, bits, origin, quantum) -> array.array:
@@ -395,9 +421,11 @@ class Client:
         """Sends a message that only an error would answer (to `on_message`)."""
         await self._write(message_text(op, members))
 
-    async def camera(self, *, distance: typing.Optional[float] = None, eye=None) -> dict:
-        """Where this viewer's camera is: exactly one of its distance (m) and its position."""
-        return await self.send("camera", distance=distance, eye=eye)
+    async def camera(self, *, distance: typing.Optional[float] = None, eye=None, target=None,
+                     half_angle: typing.Optional[float] = None) -> dict:
+        """Where this viewer's camera is: exactly one of its distance (m) and its position. With a position, `target` (what it looks
+        at) and `half_angle` (rad) say what it has in sight; without them it sees in every direction."""
+        return await self.send("camera", distance=distance, eye=eye, target=target, half_angle=half_angle)
 
     async def list_scenes(self) -> typing.List[dict]:
         return (await self.send("scene.list"))["scenes"]

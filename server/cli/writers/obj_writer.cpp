@@ -36,8 +36,14 @@ class ObjWriter final : public MeshWriter {
         text += '\n';
       }
     }
+    auto torn = frame.torn_faces.begin();
+    std::uint32_t face = 0;
     for (int r = 0; r + 1 < frame.rows; ++r) {
-      for (int c = 0; c + 1 < frame.cols; ++c) {
+      for (int c = 0; c + 1 < frame.cols; ++c, ++face) {
+        if (torn != frame.torn_faces.end() && *torn == face) {
+          ++torn;
+          continue;
+        }
         const int corner = r * frame.cols + c + 1;  // counted from 1
         text += 'f';
         // Counter-clockwise seen from the side the face normal points to.

@@ -25,6 +25,7 @@ std::string text_of(const Vec3& v) {
 /// Vertices in one place become one; those of no triangle are left out.
 TriangleList welded(const TriangleList& list) {
   TriangleList result;
+  result.convex = list.convex;
   std::map<std::tuple<double, double, double>, int> places;
   for (std::size_t t = 0; t < list.triangles.size(); ++t) {
     std::array<int, 3> triangle{};

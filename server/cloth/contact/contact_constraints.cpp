@@ -106,8 +106,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   return {touch,
           std::nullopt,
           normal,
-          normal.dot(way) - surface.distance - solid.depth_left(place, substep_.from, substep_.to),
-          solid.led_out(place, substep_.from, substep_.to),
+          normal.dot(way) - surface.distance,
+          solid.depth(place, substep_.from),
           move,
           solid.friction * force,
           sliding};
@@ -135,7 +135,6 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
   for (const Touch& touch : inside) {
     const Solid& solid = *std::find_if(solids.begin(), solids.end(),
                                        [&](const Solid& each) { return each.id == touch.collider; });
-    if (solid.steps_to_clear > 0) continue;  // what it was put onto is still led out
     const Vec3 place = at(position, touch.node), way = at(move, touch.node);
     const Surface surface = solid.placed(substep_.to).surface(place);
     if (holds_already(touch, surface.normal)) continue;

@@ -71,7 +71,7 @@ class ContactConstraints {
     std::optional<int> body;  ///< index
     Vec3 normal;
     double distance;                ///< that the node must move along the normal, m
-    double led_out;                 ///< of which it is led out of the solid, m
+    double led_out;                 ///< of which it is led out of the solid, where it began, m
     Vec3 solid_move;                ///< in the substep if nothing bends its way, m
     double holds;                   ///< at most, by friction, N
     double sliding;                 ///< along the surface in the substep, if it goes on as before, m

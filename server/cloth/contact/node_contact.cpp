@@ -28,12 +28,11 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
       if (!moving.shape.contains(position_)) continue;
       const Surface surface = moving.shape.surface(position_);
       const double held = lose_velocity(moving, surface.normal);
-      bool outside = put_on(moving, surface);
+      put_on(moving, surface);
       const double most = slip_is_left_ ? -moving.solid->friction * surface.distance
                                         : std::numeric_limits<double>::infinity();
-      if (held > 0) outside = slide_back(moving, held, most);
-      moved = outside || moved;
-      met = true;
+      if (held > 0) slide_back(moving, held, most);
+      moved = met = true;
       if (round == 0) touches.push_back(touch(*moving.solid));
       if (solids.size() > 1) note(found, i, surface.normal);
     }
@@ -136,15 +135,15 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
 
 /// Friction takes back `share` of the way slid from where the node began, put at the same height, and `most`,
 /// m, at most: from surface to surface, as a node that is held whole would creep against what pulls it if it
-/// were led back along the tangent plane at a place that it does not reach. As put_on.
+/// were led back along the tangent plane at a place that it does not reach.
 template <class Real>
-bool NodeContact<Real>::slide_back(const MovingSolid& moving, double share, double most) {
+void NodeContact<Real>::slide_back(const MovingSolid& moving, double share, double most) {
   const Vec3 began = start_ + moving.move_of(start_, 0);
   const Surface first = moving.shape.surface(began), last = moving.shape.surface(position_);
   const Vec3 back = began + (last.distance - first.distance) * first.normal - position_;
   const double slid = back.norm();
   if (slid > 0) set_position(position_ + std::min(share, most / slid) * back);
-  return put_on(moving, moving.shape.surface(position_));
+  put_on(moving, moving.shape.surface(position_));
 }
 
 /// Takes away the velocity, relative to the solid's, that points against `normal`, and what friction then
@@ -200,22 +199,15 @@ void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const s
   }
 }
 
-/// To the point of the surface next to it, of a ball as the paper has it, from the centre. False if it was
-/// found deep inside and is on its way there.
+/// To the point of the surface next to it, of a ball as the paper has it, from the centre.
 template <class Real>
-bool NodeContact<Real>::put_on(const MovingSolid& moving, const Surface& surface) {
+void NodeContact<Real>::put_on(const MovingSolid& moving, const Surface& surface) {
   const PlacedShape& shape = moving.shape;
-  const double left = moving.solid->depth_left(start_, moving.substep.from, moving.substep.to);
-  if (left > 0) {
-    set_position(position_ + std::max(0.0, -surface.distance - left) * surface.normal);
-    return false;
-  }
   if (const auto* sphere = std::get_if<Sphere>(&shape.shape)) {
     put_outside(shape, shape.centre, surface.normal, sphere->radius);
   } else {
     put_outside(shape, position_, surface.normal, -surface.distance);
   }
-  return true;
 }
 
 /// To from + distance * direction, and beyond it by what rounding may take back, so that it ends up outside.

@@ -83,9 +83,9 @@ class NodeContact {
                                              const std::vector<MovingSolid>& solids);
   void hold_at(MovingSolid& still);
   double lose_velocity(MovingSolid& moving, const Vec3& normal);
-  bool slide_back(const MovingSolid& moving, double share, double most);
+  void slide_back(const MovingSolid& moving, double share, double most);
   double part_with(const Vec3& lost, MovingSolid& moving);
-  bool put_on(const MovingSolid& moving, const Surface& surface);
+  void put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
   void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);
   void set_position(const Vec3& target);

@@ -17,9 +17,9 @@ struct Solid {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< own axes in the world, at the step's end
   double friction = 0;                                     ///< Coulomb's coefficient
   double inverse_mass = 0;                                 ///< 1/kg; 0: nothing moves it but itself
-  /// Steps, this one counted, within which nodes that it was put onto are led out: pushed out at once they
-  /// would fly off. 0: at once, as nothing can have come inside but by rounding.
-  int steps_to_clear = 0;
+  /// It was put where it is since the last step: what of a cloth is inside is let out without motion
+  /// (settle); pushed out by the step it would fly off.
+  bool just_put = false;
   Vec3 start{0, 0, 0};     ///< centre at the step's start, m
   Vec3 position{0, 0, 0};  ///< at its end, m
   Vec3 velocity{0, 0, 0};  ///< along the way, m/s
@@ -42,6 +42,8 @@ struct Solid {
   PlacedShape placed(double fraction) const {
     return {shape, at(fraction), turns() ? turned(fraction - 1) * rotation : rotation};
   }
+  /// How deep a node that is at `node` when a part of the step begins at `from` is inside then, m; 0 outside.
+  double depth(const Vec3& node, double from) const;
   bool turns() const { return !turn.isZero(0); }
   bool moves() const { return position != start || !velocity.isZero(0) || turns(); }
   /// How far a point goes that is at `point` at `from` and then goes with it, m.
@@ -52,10 +54,6 @@ struct Solid {
     move += turned(to - from) * arm - arm;
     return move;
   }
-  /// How far a node that is at `node`, inside, when a part of the step begins is led out in it, m; 0 outside.
-  double led_out(const Vec3& node, double from, double to) const;
-  /// How deep, m, it then still is.
-  double depth_left(const Vec3& node, double from, double to) const;
 
  private:
   /// What it turns by in that part of the step.

@@ -54,9 +54,10 @@ TriangleMesh::TriangleMesh(const TriangleList& list)
     bounds_.extend(vertex);
     outer_radius_ = std::max(outer_radius_, vertex.norm());
   }
-  cells_.emplace(triangles_, [this](const Vec3& point, const TriangleOctree::Nearest& nearest) {
+  const auto inside = [this](const Vec3& point, const TriangleOctree::Nearest& nearest) {
     return side_of(point, nearest) < 0;
-  });
+  };
+  cells_.emplace(triangles_, list_.convex, inside);
   inner_radius_ = outer_radius_;
   for (const Triangle& triangle : triangles_) {
     const Vec3 inwards = -triangle.normal,
@@ -89,7 +90,7 @@ bool TriangleMesh::contains(const Vec3& point) const {
   const TriangleOctree::Cell* cell = cells_->cell_at(point);
   if (cell == nullptr) return false;
   if (cell->side != TriangleOctree::Side::crossed) return cell->side == TriangleOctree::Side::inside;
-  return side_of(point, cells_->nearest(point, cell)) < 0;
+  return cell->convex ? cells_->is_below_all(point, *cell) : side_of(point, cells_->nearest(point, cell)) < 0;
 }
 
 bool TriangleMesh::may_touch(const Vec3& point, double reach) const {

@@ -12,6 +12,7 @@ namespace weft {
 struct TriangleList {
   std::vector<Vec3> vertices;  ///< m
   std::vector<std::array<int, 3>> triangles;
+  bool convex = false;  ///< known to be the surface of a convex body
 };
 
 /// A solid within a closed surface of triangles, in its own frame. Distances are exact; on which side of the

@@ -18,8 +18,8 @@ constexpr double kRoom = 1.05;
 
 }  // namespace
 
-TriangleOctree::TriangleOctree(const std::vector<Triangle>& triangles, const Inside& inside)
-    : triangles_(triangles) {
+TriangleOctree::TriangleOctree(const std::vector<Triangle>& triangles, bool convex, const Inside& inside)
+    : triangles_(triangles), convex_(convex) {
   Eigen::AlignedBox3d box;
   Candidates all;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -89,16 +89,37 @@ void TriangleOctree::build(std::size_t cell, const Place& place, int depth, cons
   if (!crossed) return;
   leaf.begin = static_cast<std::uint32_t>(indices_.size());
   leaf.count = static_cast<std::uint32_t>(candidates.triangles.size());
+  leaf.convex = convex_ || are_convex(candidates.triangles);
   indices_.insert(indices_.end(), candidates.triangles.begin(), candidates.triangles.end());
+}
+
+/// Then what is nearest to a point inside has it below its own plane and, facing no other way, below theirs;
+/// a point outside is above the plane of one of those that meet in what is nearest to it.
+bool TriangleOctree::are_convex(const std::vector<std::uint32_t>& candidates) const {
+  const double flat = kSlack * root_.half;
+  return std::all_of(candidates.begin(), candidates.end(), [&](std::uint32_t plane) {
+    return std::all_of(candidates.begin(), candidates.end(), [&](std::uint32_t other) {
+      const Triangle &below = triangles_[other], &above = triangles_[plane];
+      return above.normal.dot(below.normal) >= -kSlack &&
+             std::all_of(below.corner.begin(), below.corner.end(),
+                         [&](const Vec3& corner) { return height_over(above, corner) <= flat; });
+    });
+  });
 }
 
 const TriangleOctree::Cell* TriangleOctree::cell_at(const Vec3& point) const {
   if (!holds(point)) return nullptr;
+  // In whole widths of the smallest cell from the lowest corner: a bit an axis for each division.
+  const Vec3 from_corner = (point - root_.centre).array() + root_.half;
+  const double widths = (1 << kMaxDepth) / (2 * root_.half);
+  std::array<int, 3> at{};
+  for (int axis = 0; axis < 3; ++axis) {
+    at[static_cast<std::size_t>(axis)] =
+        std::min(static_cast<int>(widths * from_corner[axis]), (1 << kMaxDepth) - 1);
+  }
   const Cell* cell = cells_.data();
-  for (Place place = root_; cell->children >= 0;) {
-    const int child = child_with(place, point);
-    cell = &child_cell(*cell, child);
-    place = child_of(place, child);
+  for (int bit = kMaxDepth - 1; cell->children >= 0; --bit) {
+    cell = &child_cell(*cell, (at[0] >> bit & 1) | (at[1] >> bit & 1) << 1 | (at[2] >> bit & 1) << 2);
   }
   return cell;
 }
@@ -126,7 +147,9 @@ void TriangleOctree::consider(const Cell& cell, const Vec3& point, Nearest& best
     const double reach = distance + double(ball.radius);
     const Vec3 from_ball = point - Vec3(double(ball.x), double(ball.y), double(ball.z));
     if (from_ball.squaredNorm() > reach * reach) continue;
-    const NearestOnTriangle on = nearest_on(triangles_[indices_[i]], point);
+    const Triangle& triangle = triangles_[indices_[i]];
+    if (std::abs(height_over(triangle, point)) >= distance) continue;
+    const NearestOnTriangle on = nearest_on(triangle, point);
     const double square = (point - on.point).squaredNorm();
     if (square >= best.square) continue;
     best = {indices_[i], on, square};

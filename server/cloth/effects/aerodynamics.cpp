@@ -1,5 +1,6 @@
 #include "cloth/effects/aerodynamics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/kernels/air_kernels.h"
@@ -16,6 +17,15 @@ auto in_air(const EffectContext& context, const Call& call) {
       kernels::Uniform<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())});
 }
 
+/// The same air from scalar n of the cloth's fields on.
+template <class Real>
+kernels::Uniform<Real> from(const kernels::Uniform<Real>& air, std::size_t) {
+  return air;
+}
+kernels::Components<const float> from(const kernels::Components<const float>& air, std::size_t n) {
+  return air + n;
+}
+
 template <class Real>
 kernels::Plate<Real> plate_of(const AerodynamicsEffect& e) {
   return {static_cast<Real>(0.5 * e.air_density * e.lift_or_drag()),
@@ -30,9 +40,12 @@ void Aerodynamics<Real>::add_forces(const Particles<Real>& particles, const Effe
   // An infinite limit becomes an infinite flow: no limit.
   const double most_flow = context.damping_limit / rate_per_flow(particles);
   in_air<Real>(context, [&](const auto& air) {
-    kernels::add_air_force(particles.grid(), kernels::components(particles.position),
-                           kernels::components(particles.velocity), air, plate_of<Real>(parameters_),
-                           static_cast<Real>(most_flow), kernels::components(force));
+    for_each_whole_part(particles.grid(), context, [&](const Grid& faces, std::size_t n) {
+      kernels::add_air_force(faces, kernels::components(particles.position) + n,
+                             kernels::components(particles.velocity) + n, from(air, n),
+                             plate_of<Real>(parameters_), static_cast<Real>(most_flow),
+                             kernels::components(force) + n);
+    });
   });
 }
 
@@ -40,8 +53,12 @@ template <class Real>
 double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
                                             const EffectContext& context) const {
   const Real flow = in_air<Real>(context, [&](const auto& air) {
-    return kernels::max_air_flow(particles.grid(), kernels::components(particles.position),
-                                 kernels::components(particles.velocity), air);
+    Real most = 0;
+    for_each_whole_part(particles.grid(), context, [&](const Grid& faces, std::size_t n) {
+      most = std::max(most, kernels::max_air_flow(faces, kernels::components(particles.position) + n,
+                                                  kernels::components(particles.velocity) + n, from(air, n)));
+    });
+    return most;
   });
   return double(flow) * rate_per_flow(particles);
 }
@@ -50,9 +67,11 @@ template <class Real>
 void Aerodynamics<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
                                      const DampingMatrix<Real>& damping) const {
   in_air<Real>(context, [&](const auto& air) {
-    kernels::add_air_damping(particles.grid(), kernels::components(particles.position),
-                             kernels::components(particles.velocity), air, plate_of<Real>(parameters_),
-                             damping.blocks);
+    for_each_whole_part(particles.grid(), context, [&](const Grid& faces, std::size_t n) {
+      kernels::add_air_damping(faces, kernels::components(particles.position) + n,
+                               kernels::components(particles.velocity) + n, from(air, n),
+                               plate_of<Real>(parameters_), damping.blocks + n);
+    });
   });
 }
 

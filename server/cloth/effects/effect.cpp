@@ -22,6 +22,7 @@ struct EffectMaker {
   Made operator()(const StrainDampingEffect&) const { return nullptr; }
   Made operator()(const PlateBendingEffect&) const { return nullptr; }
   Made operator()(const StrainLimitEffect&) const { return nullptr; }
+  Made operator()(const TearingEffect&) const { return nullptr; }
   // The whole scene's: Layers.
   Made operator()(const ClothContactEffect&) const { return nullptr; }
 };

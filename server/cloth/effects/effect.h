@@ -6,6 +6,7 @@
 #include "cloth/description.h"
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/particles.h"
+#include "cloth/tear/torn_links.h"
 #include "cloth/wind/gust_series.h"
 
 namespace weft {
@@ -19,6 +20,8 @@ struct EffectContext {
   /// Largest damping rate, 1/s, that the substep bears. A force that grows with speed faster than it did when
   /// the substeps were chosen (a fast ball strikes) is held to it. Infinite for methods that bear any.
   double damping_limit = std::numeric_limits<double>::infinity();
+  /// The faces that air can press on, if some are torn; null while the cloth is whole.
+  const std::vector<FaceRun>* whole_faces = nullptr;
   const GustSeries* gusts = nullptr;  ///< null if the wind has none
   /// The air's velocity at the nodes during this step, m/s, gusts included; null if it is the same
   /// everywhere.
@@ -26,6 +29,19 @@ struct EffectContext {
   /// Of the wind at `time`, m/s; below 0 where a gust turns it round.
   double wind_speed() const { return gusts ? wind->speed * gusts->factor(time) : wind->speed; }
 };
+
+/// Calls visit(faces, first) for all faces that are not torn: those of a grid that begins at the scalar
+/// `first` of the cloth's fields and has their stride.
+template <class Visit>
+void for_each_whole_part(const Grid& grid, const EffectContext& context, Visit visit) {
+  if (context.whole_faces == nullptr) {
+    visit(grid, std::size_t{0});
+    return;
+  }
+  for (const FaceRun& run : *context.whole_faces) {
+    visit(Grid{2, run.end - run.begin + 1, grid.stride}, grid.index(run.row, run.begin));
+  }
+}
 
 /// -dF/dv of a cloth as the implicit methods take it, N s/m: at every node a scalar and a symmetric matrix.
 template <class Real>
@@ -60,8 +76,8 @@ extern template class Effect<float>;
 extern template class Effect<double>;
 
 /// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
-/// Those that belong to the sheet itself, strain_damping, strain_limit and plate_bending, are left to Springs
-/// and Plate, cloth_contact to the simulation.
+/// Those that belong to the sheet itself, strain_damping, strain_limit, plate_bending and tearing, are left
+/// to Springs, Plate and Cloth, cloth_contact to the simulation.
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
 

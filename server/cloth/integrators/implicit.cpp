@@ -11,7 +11,7 @@ namespace {
 
 /// Newton iterations added at most when those asked for are rough or bring in energy: half a turn a frame
 /// takes one, a crumpled sheet all.
-constexpr int kSpareIterations = 8;
+constexpr int kSpareIterations = 8, kMoreIterations = 3;
 /// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
 /// not.
 constexpr double kRough = 0.2;
@@ -121,7 +121,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_->slow = kSlow * extent(forces.springs->families(), grid);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
-  if (state_->h != h) {
+  const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
+  if (state_->h != h || tore) {
     state_->h = h;
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
   }
@@ -273,7 +274,10 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     error = std::max(error, pulling);
     const double allowed = left > 1 ? solved.target : std::max(solved.target, kRough * s.scale);
     const bool done = report.brought_in <= 0 && error <= allowed;
-    if (done && !hold_inside(particles, *forces.springs, allowed)) break;
+    const bool last = left <= 1 - kSpareIterations;
+    if (!last && (!done || hold_inside(particles, *forces.springs, allowed))) continue;
+    if (forces.layers == nullptr || !hold_meeting(particles, *forces.layers)) break;
+    left = std::max(left, kMoreIterations - kSpareIterations);
   }
   return report;
 }
@@ -288,6 +292,15 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
                               springs.node_stiffness(), missed))
     return false;
   s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  begin_formula(s.h);
+  return true;
+}
+
+template <class Real>
+bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
+  State& s = *state_;
+  if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
+  layers.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
   begin_formula(s.h);
   return true;
 }

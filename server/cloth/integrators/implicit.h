@@ -92,6 +92,8 @@ class Implicit final : public Integrator<Real> {
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
   /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
   bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
+  /// Holds what this iteration would have pass through each other; true if there is any.
+  bool hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers);
   /// Less than the whole where contacts come in its way.
   ChangeReport whole_change(const Forces<Real>& forces, double decrease);
   ChangeReport searched_change(const Forces<Real>& forces, double decrease);

@@ -24,8 +24,10 @@ std::optional<Springs<Real>> softened_springs(const Springs<Real>& springs, cons
   for (double* constant : {&soft.structural, &soft.shear, &soft.bending}) {
     *constant = std::min(*constant, limit);
   }
-  return Springs<Real>(soft, cloth.discretization, cloth.size, mass.grid(), springs.damping_time(),
-                       springs.limited());
+  Springs<Real> softened(soft, cloth.discretization, cloth.size, mass.grid(), springs.damping_time(),
+                         springs.limited());
+  softened.tear(springs.torn());
+  return softened;
 }
 
 template std::optional<Springs<float>> softened_springs(const Springs<float>&, const ClothDescription&,

@@ -74,21 +74,27 @@ template <class Real>
 void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid, double h) {
   const std::vector<SpringFamily>& families = springs.families();
   const std::size_t lanes = layout_.stride;
-  stiffness_.assign(families.size() * lanes, Real(0));
+  const int rows = springs.torn() ? grid.rows : 1;
+  stiffness_.assign(families.size() * static_cast<std::size_t>(rows) * lanes, Real(0));
   springs_.clear();
   // Bending, shear, structural: the stiffest have the last word.
   for (auto family = families.rbegin(); family != families.rend(); ++family) {
-    Real* stiffness = stiffness_.data() + springs_.size() * lanes;
-    for (int c = std::max(0, -family->cols); c + std::max(0, family->cols) < grid.cols; ++c) {
-      // Springs that lie in a border row are scaled by the kernel.
-      const bool in_border_column = family->cols == 0 && (c == 0 || c == grid.cols - 1);
-      const double share = in_border_column ? family->border_share : 1.0;
-      stiffness[layout_.lane(std::min(c, c + family->cols))] =
-          static_cast<Real>(share * family->stiffness * h * h);
+    Real* stiffness = stiffness_.data() + springs_.size() * static_cast<std::size_t>(rows) * lanes;
+    for (int r = 0; r < rows && (rows == 1 || r + family->rows < grid.rows); ++r) {
+      for (int c = std::max(0, -family->cols); c + std::max(0, family->cols) < grid.cols; ++c) {
+        // Springs that lie in a border row are scaled by the kernel.
+        const bool in_border_column = family->cols == 0 && (c == 0 || c == grid.cols - 1);
+        const double share = in_border_column ? family->border_share : 1.0;
+        if (springs.torn(*family, r, c)) continue;
+        stiffness[static_cast<std::size_t>(r) * lanes +
+                  static_cast<std::size_t>(layout_.lane(std::min(c, c + family->cols)))] =
+            static_cast<Real>(share * family->stiffness * h * h);
+      }
     }
     springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
                         static_cast<Real>(family->border_share), stiffness,
                         static_cast<Real>(springs.damping_time() / h)});
+    springs_.back().row_step = springs.torn() ? static_cast<std::ptrdiff_t>(lanes) : 0;
     if (std::isfinite(family->limit.length)) {
       springs_.back().limit_length = static_cast<Real>(family->limit.length);
       springs_.back().excess = static_cast<Real>(family->limit.stiffening - 1);
@@ -133,7 +139,9 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
   if (damped) take_back_pins(forces, 1, h);
   if (forces.plate != nullptr) kernels::project_plate(layout_, plate_.data(), sheet_.data());
   for (const auto& family : springs_) {
-    if (family.excess > Real(0)) {
+    if (family.row_step > 0) {
+      kernels::project_torn(layout_, family, sheet_.data());
+    } else if (family.excess > Real(0)) {
       kernels::project_limited(layout_, family, sheet_.data());
     } else {
       kernels::project(layout_, family, sheet_.data());

@@ -46,7 +46,7 @@ template <class Real, bool kLimited>
   }
 }
 
-template <class Real, bool kLimited>
+template <class Real, bool kLimited, bool kTorn = false>
 [[gnu::always_inline]] inline void linearise_any(const SpringLattice<Real>& springs, const Grid& grid,
                                                  const Components<const Real>& position, Real axial,
                                                  const LinkFamilies<SpringLinks<Real>>& links,
@@ -57,6 +57,7 @@ template <class Real, bool kLimited>
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
+    const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
     const auto row = [&](const SpringColumns<Real>& family, Real row_share, std::ptrdiff_t other,
                          const SpringLinks<Real>& out) WEFT_INLINE_LAMBDA {
       linearise_row<Real, kLimited>(family, springs.excess, row_share, position, first, other, count, axial,
@@ -66,15 +67,15 @@ template <class Real, bool kLimited>
                                  const SpringLinks<Real>& out) WEFT_INLINE_LAMBDA {
       linearise_row<Real, false>(family, 0, row_share, position, first, other, count, axial, out);
     };
-    row(springs.along_u, share, 1, links.along_u);
+    row(own.along_u, share, 1, links.along_u);
     if (links.has_bending) {
-      bending_row(springs.bending_u, share, 2, links.bending_u);
-      if (r + 2 < grid.rows) bending_row(springs.bending_v, Real(1), 2 * stride, links.bending_v);
+      bending_row(own.bending_u, share, 2, links.bending_u);
+      if (r + 2 < grid.rows) bending_row(own.bending_v, Real(1), 2 * stride, links.bending_v);
     }
     if (last) break;
-    row(springs.along_v, Real(1), stride, links.along_v);
-    row(springs.falling, Real(1), stride + 1, links.falling);
-    row(springs.rising, Real(1), stride - 1, links.rising);
+    row(own.along_v, Real(1), stride, links.along_v);
+    row(own.falling, Real(1), stride + 1, links.falling);
+    row(own.rising, Real(1), stride - 1, links.rising);
   }
 }
 
@@ -253,6 +254,12 @@ template <class Real>
       const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position, Real axial,     \
       const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {                                         \
     linearise_any<Real, true>(springs, grid, position, axial, links, rows);                                  \
+  }                                                                                                          \
+  template <>                                                                                                \
+  WEFT_MULTIVERSION void linearise_torn_springs(                                                             \
+      const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position, Real axial,     \
+      const LinkFamilies<SpringLinks<Real>>& links, RowRange rows) {                                         \
+    linearise_any<Real, true, true>(springs, grid, position, axial, links, rows);                            \
   }                                                                                                          \
   template <>                                                                                                \
   WEFT_MULTIVERSION void begin_backward_step(                                                                \

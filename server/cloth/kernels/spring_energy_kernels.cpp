@@ -75,7 +75,7 @@ template <class Real, bool kLimited>
   }
 }
 
-template <class Real, bool kLimited>
+template <class Real, bool kLimited, bool kTorn = false>
 [[gnu::always_inline]] inline SpringModelError model_error_any(const SpringLattice<Real>& springs,
                                                                const Grid& grid, const Fields<Real>& fields) {
   SpringModelError error;
@@ -86,6 +86,7 @@ template <class Real, bool kLimited>
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
+    const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
     const auto row = [&](const SpringColumns<Real>& family, Real row_share,
                          std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
       add_row<Real, kLimited>(family, springs.excess, row_share, fields, first, other, count, lanes);
@@ -94,16 +95,16 @@ template <class Real, bool kLimited>
                                  std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
       add_row<Real, false>(family, 0, row_share, fields, first, other, count, lanes);
     };
-    row(springs.along_u, share, 1);
+    row(own.along_u, share, 1);
     if (springs.has_bending) {
-      bending_row(springs.bending_u, share, 2);
-      if (r + 2 < grid.rows) bending_row(springs.bending_v, Real(1), 2 * stride);
+      bending_row(own.bending_u, share, 2);
+      if (r + 2 < grid.rows) bending_row(own.bending_v, Real(1), 2 * stride);
     }
     if (!last) {
-      row(springs.along_v, Real(1), stride);
+      row(own.along_v, Real(1), stride);
       if (springs.has_shear) {
-        row(springs.falling, Real(1), stride + 1);
-        row(springs.rising, Real(1), stride - 1);
+        row(own.falling, Real(1), stride + 1);
+        row(own.rising, Real(1), stride - 1);
       }
     }
     lanes.flush(error);
@@ -139,6 +140,19 @@ WEFT_MULTIVERSION SpringModelError limited_spring_model_error(const SpringLattic
                                                               Components<const double> position,
                                                               Components<const double> change) {
   return model_error_any<double, true>(springs, grid, {position, change});
+}
+template <>
+WEFT_MULTIVERSION SpringModelError torn_spring_model_error(const SpringLattice<float>& springs,
+                                                           const Grid& grid, Components<const float> position,
+                                                           Components<const float> change) {
+  return model_error_any<float, true, true>(springs, grid, {position, change});
+}
+template <>
+WEFT_MULTIVERSION SpringModelError torn_spring_model_error(const SpringLattice<double>& springs,
+                                                           const Grid& grid,
+                                                           Components<const double> position,
+                                                           Components<const double> change) {
+  return model_error_any<double, true, true>(springs, grid, {position, change});
 }
 
 }  // namespace weft::kernels

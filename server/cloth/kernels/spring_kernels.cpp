@@ -155,7 +155,7 @@ template <class T>
   return {field.x + by, field.y + by, field.z + by};
 }
 
-template <class Real, bool kShear, bool kBending, bool kLimited>
+template <class Real, bool kShear, bool kBending, bool kLimited, bool kTorn = false>
 [[gnu::always_inline]] inline void add_all_rows(const SpringLattice<Real>& springs, const Grid& grid,
                                                 const Components<const Real>& position,
                                                 const Components<Real>& force, Real* work) {
@@ -185,10 +185,10 @@ template <class Real, bool kShear, bool kBending, bool kLimited>
         has_second ? offset(position, grid.index(r + 2, 0)) : Components<const Real>{zeros, zeros, zeros};
     rows.force2 = has_second ? offset(force, grid.index(r + 2, 0)) : nowhere;
     rows.row_share = r == 0 || !has_next ? springs.border_row_share : Real(1);
-    add_row<Real, kShear, kBending, kLimited>(springs, rows, has_next ? springs.along_v.stiffness : zeros,
-                                              has_next ? springs.falling.stiffness : zeros,
-                                              has_next ? springs.rising.stiffness : zeros,
-                                              has_second ? springs.bending_v.stiffness : zeros, count);
+    const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
+    add_row<Real, kShear, kBending, kLimited>(
+        own, rows, has_next ? own.along_v.stiffness : zeros, has_next ? own.falling.stiffness : zeros,
+        has_next ? own.rising.stiffness : zeros, has_second ? own.bending_v.stiffness : zeros, count);
   }
 }
 
@@ -233,6 +233,19 @@ WEFT_MULTIVERSION void add_limited_spring_forces(const SpringLattice<double>& sp
                                                  Components<const double> position, Components<double> force,
                                                  double* work) {
   add_all<double, true>(springs, grid, position, force, work);
+}
+
+// One variant for all: springs that are not there have no stiffness, limits that are not no excess.
+WEFT_MULTIVERSION void add_torn_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                                              Components<const float> position, Components<float> force,
+                                              float* work) {
+  add_all_rows<float, true, true, true, true>(springs, grid, position, force, work);
+}
+
+WEFT_MULTIVERSION void add_torn_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                                              Components<const double> position, Components<double> force,
+                                              double* work) {
+  add_all_rows<double, true, true, true, true>(springs, grid, position, force, work);
 }
 
 }  // namespace weft::kernels

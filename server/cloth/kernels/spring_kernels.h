@@ -21,7 +21,29 @@ struct SpringLattice {
   Real border_row_share = 1;  ///< of the stiffness, for springs that lie in the first or last row
   bool has_shear = false, has_bending = false;
   Real excess = 0;  ///< beyond their limits springs are stiffer by so many times their stiffness
+  /// From the stiffnesses of one row's springs to those of the next, for the torn kernels; the others take
+  /// all rows to be alike, whatever it says.
+  std::ptrdiff_t row_step = 0;
 };
+
+/// The lattice with the stiffnesses of row `r`'s springs.
+template <class Real>
+SpringLattice<Real> lattice_of_row(SpringLattice<Real> springs, int r) {
+  for (SpringColumns<Real>* family : {&springs.along_u, &springs.along_v, &springs.falling, &springs.rising,
+                                      &springs.bending_u, &springs.bending_v}) {
+    family->stiffness += r * springs.row_step;
+  }
+  return springs;
+}
+/// The same for kernels where springs may be cut; the lattice itself in the others.
+template <bool kTorn, class Real>
+decltype(auto) springs_of_row(const SpringLattice<Real>& springs, int r) {
+  if constexpr (kTorn) {
+    return lattice_of_row(springs, r);
+  } else {
+    return (springs);
+  }
+}
 
 /// Scalars of work space that add_spring_forces needs; all zero before the first call, the kernel keeps what
 /// must stay so.
@@ -38,5 +60,11 @@ void add_limited_spring_forces(const SpringLattice<float>& springs, const Grid& 
                                Components<const float> position, Components<float> force, float* work);
 void add_limited_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
                                Components<const double> position, Components<double> force, double* work);
+
+/// The same where springs may be cut, with limits or without.
+void add_torn_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
+                            Components<const float> position, Components<float> force, float* work);
+void add_torn_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
+                            Components<const double> position, Components<double> force, double* work);
 
 }  // namespace weft::kernels

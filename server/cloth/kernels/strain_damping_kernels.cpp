@@ -61,7 +61,7 @@ template <class Real, bool kBeyondLimits>
   }
 }
 
-template <class Real, bool kBeyondLimits>
+template <class Real, bool kBeyondLimits, bool kTorn>
 [[gnu::always_inline]] inline void add_all(const SpringLattice<Real>& springs, const Grid& grid, Real factor,
                                            const Fields<Real>& fields) {
   const std::ptrdiff_t stride = grid.stride;
@@ -69,17 +69,18 @@ template <class Real, bool kBeyondLimits>
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share * factor : factor;
-    add_row<Real, kBeyondLimits>(springs.along_u, share, fields, first, 1, 0, grid.cols - 1);
+    const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
+    add_row<Real, kBeyondLimits>(own.along_u, share, fields, first, 1, 0, grid.cols - 1);
     if (!kBeyondLimits && springs.has_bending) {
-      add_row<Real, kBeyondLimits>(springs.bending_u, share, fields, first, 2, 0, grid.cols - 2);
+      add_row<Real, kBeyondLimits>(own.bending_u, share, fields, first, 2, 0, grid.cols - 2);
       if (r + 2 < grid.rows)
-        add_row<Real, kBeyondLimits>(springs.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
+        add_row<Real, kBeyondLimits>(own.bending_v, factor, fields, first, 2 * stride, 0, grid.cols);
     }
     if (last) break;
-    add_row<Real, kBeyondLimits>(springs.along_v, factor, fields, first, stride, 0, grid.cols);
+    add_row<Real, kBeyondLimits>(own.along_v, factor, fields, first, stride, 0, grid.cols);
     if (springs.has_shear) {
-      add_row<Real, kBeyondLimits>(springs.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
-      add_row<Real, kBeyondLimits>(springs.rising, factor, fields, first, stride - 1, 1, grid.cols);
+      add_row<Real, kBeyondLimits>(own.falling, factor, fields, first, stride + 1, 0, grid.cols - 1);
+      add_row<Real, kBeyondLimits>(own.rising, factor, fields, first, stride - 1, 1, grid.cols);
     }
   }
 }
@@ -93,30 +94,38 @@ template <class Real>
 
 std::size_t strain_damping_work_size(const Grid& grid) { return 3 * static_cast<std::size_t>(grid.stride); }
 
-WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<float>& springs, const Grid& grid,
-                                          Components<const float> position, Components<const float> change,
-                                          float factor, Components<float> force, float* work) {
-  add_all<float, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});
-}
+// target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
+#define WEFT_STRAIN_DAMPING_KERNELS(Real)                                                                   \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<Real>& springs, const Grid& grid,           \
+                                            Components<const Real> position, Components<const Real> change, \
+                                            Real factor, Components<Real> force, Real* work) {              \
+    add_all<Real, false, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});    \
+  }                                                                                                         \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_torn_strain_damping(                                                           \
+      const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,                \
+      Components<const Real> change, Real factor, Components<Real> force, Real* work) {                     \
+    add_all<Real, false, true>(springs, grid, factor, {position, change, force, work_row(grid, work)});     \
+  }                                                                                                         \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<Real>& springs, const Grid& grid,            \
+                                           Components<const Real> position, Components<const Real> change,  \
+                                           Real factor, Components<Real> force, Real* work) {               \
+    add_all<Real, true, false>(springs, grid, factor * springs.excess,                                      \
+                               {position, change, force, work_row(grid, work)});                            \
+  }                                                                                                         \
+  template <>                                                                                               \
+  WEFT_MULTIVERSION void add_torn_limit_damping(                                                            \
+      const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,                \
+      Components<const Real> change, Real factor, Components<Real> force, Real* work) {                     \
+    add_all<Real, true, true>(springs, grid, factor * springs.excess,                                       \
+                              {position, change, force, work_row(grid, work)});                             \
+  }
 
-WEFT_MULTIVERSION void add_strain_damping(const SpringLattice<double>& springs, const Grid& grid,
-                                          Components<const double> position, Components<const double> change,
-                                          double factor, Components<double> force, double* work) {
-  add_all<double, false>(springs, grid, factor, {position, change, force, work_row(grid, work)});
-}
-
-WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<float>& springs, const Grid& grid,
-                                         Components<const float> position, Components<const float> change,
-                                         float factor, Components<float> force, float* work) {
-  add_all<float, true>(springs, grid, factor * springs.excess,
-                       {position, change, force, work_row(grid, work)});
-}
-
-WEFT_MULTIVERSION void add_limit_damping(const SpringLattice<double>& springs, const Grid& grid,
-                                         Components<const double> position, Components<const double> change,
-                                         double factor, Components<double> force, double* work) {
-  add_all<double, true>(springs, grid, factor * springs.excess,
-                        {position, change, force, work_row(grid, work)});
-}
+WEFT_STRAIN_DAMPING_KERNELS(float)
+WEFT_STRAIN_DAMPING_KERNELS(double)
+#undef WEFT_STRAIN_DAMPING_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels

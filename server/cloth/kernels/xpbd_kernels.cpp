@@ -62,23 +62,24 @@ template <class Real, bool kDamped, bool kLimited>
 
 /// Springs within a row: two quarters of the columns begin a spring of the first colour, two one of the
 /// second.
-template <class Real, bool kDamped, bool kLimited>
+template <class Real, bool kDamped, bool kLimited, bool kTorn>
 [[gnu::always_inline]] inline void project_within_rows(const QuarterRows& layout,
                                                        const XpbdSprings<Real>& springs, Real* sheet) {
   for (int r = 0; r < layout.rows; ++r) {
     Real* row = sheet + static_cast<std::size_t>(r) * layout.row_size();
     const Real share = r == 0 || r == layout.rows - 1 ? springs.border_row_share : Real(1);
+    const Real* const stiffness = kTorn ? springs.stiffness + r * springs.row_step : springs.stiffness;
     for (int i = 0; i < 4; ++i) {
       const int col = springs.cols == 1 ? i / 2 + i % 2 * 2 : i;  // 0, 2 then 1, 3; or 0, 1 then 2, 3
       const int left = layout.lane(col), right = layout.lane(col + springs.cols);
-      project_run<Real, kDamped, kLimited>(row + left, row + right, springs.stiffness + left, share, springs,
+      project_run<Real, kDamped, kLimited>(row + left, row + right, stiffness + left, share, springs,
                                            layout.stride, layout.width);
     }
   }
 }
 
 /// Springs between rows: a row begins springs of one colour, the row at their other end of the other.
-template <class Real, bool kDamped, bool kLimited>
+template <class Real, bool kDamped, bool kLimited, bool kTorn>
 [[gnu::always_inline]] inline void project_between_rows(const QuarterRows& layout,
                                                         const XpbdSprings<Real>& springs, Real* sheet) {
   const int across = springs.cols < 0 ? -springs.cols : springs.cols;
@@ -88,37 +89,38 @@ template <class Real, bool kDamped, bool kLimited>
       Real* left = sheet + static_cast<std::size_t>(r) * layout.row_size();
       Real* right = left + static_cast<std::size_t>(springs.rows) * layout.row_size();
       if (springs.cols < 0) std::swap(left, right);
+      const Real* const stiffness = kTorn ? springs.stiffness + r * springs.row_step : springs.stiffness;
       if (across == 0) {
-        project_run<Real, kDamped, kLimited>(left, right, springs.stiffness, Real(1), springs, layout.stride,
+        project_run<Real, kDamped, kLimited>(left, right, stiffness, Real(1), springs, layout.stride,
                                              round_up(4 * layout.width + 1, kGroup));
       } else {
         for (int col = 0; col < 4; ++col) {
           const int from = layout.lane(col), to = layout.lane(col + across);
-          project_run<Real, kDamped, kLimited>(left + from, right + to, springs.stiffness + from, Real(1),
-                                               springs, layout.stride, layout.width);
+          project_run<Real, kDamped, kLimited>(left + from, right + to, stiffness + from, Real(1), springs,
+                                               layout.stride, layout.width);
         }
       }
     }
   }
 }
 
-template <class Real, bool kDamped, bool kLimited>
+template <class Real, bool kDamped, bool kLimited, bool kTorn>
 [[gnu::always_inline]] inline void project_family(const QuarterRows& layout, const XpbdSprings<Real>& springs,
                                                   Real* sheet) {
   if (springs.rows == 0) {
-    project_within_rows<Real, kDamped, kLimited>(layout, springs, sheet);
+    project_within_rows<Real, kDamped, kLimited, kTorn>(layout, springs, sheet);
   } else {
-    project_between_rows<Real, kDamped, kLimited>(layout, springs, sheet);
+    project_between_rows<Real, kDamped, kLimited, kTorn>(layout, springs, sheet);
   }
 }
 
-template <class Real, bool kLimited>
+template <class Real, bool kLimited, bool kTorn>
 [[gnu::always_inline]] inline void project_any(const QuarterRows& layout, const XpbdSprings<Real>& springs,
                                                Real* sheet) {
   if (springs.damping > Real(0)) {
-    project_family<Real, true, kLimited>(layout, springs, sheet);
+    project_family<Real, true, kLimited, kTorn>(layout, springs, sheet);
   } else {
-    project_family<Real, false, kLimited>(layout, springs, sheet);
+    project_family<Real, false, kLimited, kTorn>(layout, springs, sheet);
   }
 }
 
@@ -269,18 +271,26 @@ WEFT_MULTIVERSION void predict(const QuarterRows& layout, const Grid& grid, cons
 }
 
 WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet) {
-  project_any<float, false>(layout, springs, sheet);
+  project_any<float, false, false>(layout, springs, sheet);
 }
 WEFT_MULTIVERSION void project_limited(const QuarterRows& layout, const XpbdSprings<float>& springs,
                                        float* sheet) {
-  project_any<float, true>(layout, springs, sheet);
+  project_any<float, true, false>(layout, springs, sheet);
 }
 WEFT_MULTIVERSION void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet) {
-  project_any<double, false>(layout, springs, sheet);
+  project_any<double, false, false>(layout, springs, sheet);
 }
 WEFT_MULTIVERSION void project_limited(const QuarterRows& layout, const XpbdSprings<double>& springs,
                                        double* sheet) {
-  project_any<double, true>(layout, springs, sheet);
+  project_any<double, true, false>(layout, springs, sheet);
+}
+WEFT_MULTIVERSION void project_torn(const QuarterRows& layout, const XpbdSprings<float>& springs,
+                                    float* sheet) {
+  project_any<float, true, true>(layout, springs, sheet);
+}
+WEFT_MULTIVERSION void project_torn(const QuarterRows& layout, const XpbdSprings<double>& springs,
+                                    double* sheet) {
+  project_any<double, true, true>(layout, springs, sheet);
 }
 
 WEFT_MULTIVERSION void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,

@@ -33,6 +33,7 @@ struct XpbdSprings {
   Real damping = 0;                 ///< gamma = tau / h, if the springs resist the rate of their length too
   Real limit_length = 0;            ///< m, beyond which project_limited has them stiffer
   Real excess = 0;                  ///< by so many times their stiffness
+  std::ptrdiff_t row_step = 0;      ///< from one row's stiffnesses to the next one's, for project_torn
 };
 
 /// The nodes as the rest of the program has them.
@@ -67,6 +68,9 @@ void project(const QuarterRows& layout, const XpbdSprings<double>& springs, doub
 /// spring's multiplier is the larger one of those that either of them gives: no branch.
 void project_limited(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project_limited(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
+/// The same where springs may be cut, with limits or without.
+void project_torn(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
+void project_torn(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 
 /// Takes over the projected moves d: v += (d - d predicted) / h, r += d. `row` as above.
 void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,

@@ -1,6 +1,6 @@
 #pragma once
 #include "cloth/contact/contact.h"
-#include "cloth/layers/layer_nodes.h"
+#include "cloth/layers/feature_search.h"
 #include "cloth/solver/node_couplings.h"
 #include "cloth/solver/one_sided_springs.h"
 
@@ -17,7 +17,8 @@ struct LayerPair {
 
 /// How layers press on one another and rub.
 struct LayerParameters {
-  double thickness = 0;  ///< m
+  double gap = 0;      ///< between layers of the cloth, m
+  double net_gap = 0;  ///< that the net keeps, m
   double friction = 0;
 };
 
@@ -26,10 +27,13 @@ struct LayerParameters {
 ///
 /// To an implicit step it is a spring between the four nodes, as contact_constraints.h has it for solids: it
 /// begins to act where the nodes' velocities would bring them too near or where it acted in the last step,
-/// is stiffened where layers are pressed far into their gap (as the net would else have to hold them), is
-/// taken away if it pulls, and drags with at most friction times the force of the step before. So layers
-/// that press on each other stand in equilibrium with all other forces, and nothing is put right at nobody's
-/// cost. Layers nearer than their gap are led apart by a part of what they lack a step.
+/// is stiffened where layers are pressed far into their gap, is taken away if it pulls, and drags with at
+/// most friction times the force of the step before. Within a cloth that force also pushes on, so that the
+/// spring has only to give the change (an augmented Lagrangian: Nocedal and Wright, Numerical Optimization,
+/// 2006, 17.3): however strongly a rope is wrung, its layers come to stand in equilibrium with all other
+/// forces, and nothing is put right at nobody's cost. What would still pass through each other at the end of
+/// the step's iterations is held, too, and more are made. Layers nearer than their gap are led apart by a
+/// part of what they lack a step.
 ///
 /// To an explicit substep it is an inelastic impulse.
 ///
@@ -41,7 +45,8 @@ struct LayerParameters {
 template <class Real>
 class LayerContacts {
  public:
-  LayerContacts(const LayerNodes& nodes, std::size_t cloth, const LayerParameters& parameters);
+  LayerContacts(const LayerNodes& nodes, const Grid& grid, std::size_t cloth,
+                const LayerParameters& parameters);
 
   /// The pairs of the step that have nodes of this cloth; forces are remembered by node.
   void set_pairs(std::vector<LayerPair> pairs) { pairs_ = std::move(pairs); }
@@ -61,6 +66,9 @@ class LayerContacts {
   /// Takes away what pulls at `move` and brings back what is too near. Returns the energy of their springs,
   /// J.
   double release_pulling(kernels::Components<const Real> move);
+  /// Between Newton iterations: holds what would pass through each other on the way to these positions. False
+  /// if there is nothing.
+  bool hold_meeting(kernels::Components<const Real> position, kernels::Components<const Real> move);
   /// Reads the forces off the solution; struck() is empty afterwards.
   void finish(kernels::Components<const Real> move);
   /// Calls visit(node index) for every node of a pair that acts, and for those in struck().
@@ -86,39 +94,58 @@ class LayerContacts {
   const std::vector<Vec3>& given() const { return given_; }
 
  private:
+  /// By what a pair is known again in the next step: node and side, or both edges.
+  using Key = std::array<std::uint32_t, 4>;
   struct Constraint {
     typename NodeCouplings<Real>::Coupling coupling;  ///< of the free nodes
     Vec3 normal;
-    double room;     ///< along the normal as the substep ends, if the free nodes stay, less the gap, m
-    Vec3 slid;       ///< what the others slide, m
-    double sliding;  ///< along the surface, if all go on as before, m
-    double holds;    ///< at most, by friction, N
+    double distance = 0;  ///< along the normal as the substep begins, m
+    double closing = 0;   ///< of which is gained, if all go on as before, m
+    double wanted = 0;    ///< distance in the end, m
+    double gap = 0;       ///< wanted at last, m
+    double room = 0;      ///< as the substep ends, if the free nodes stay, less what is wanted, m
+    Vec3 slid;            ///< what the others slide, m
+    double sliding = 0;   ///< along the surface, if all go on as before, m
+    double memory = 0;    ///< force of the substep before, N
+    double pressed = 0;   ///< of which is carried on, N
+    double holds = 0;     ///< at most, by friction, N
     double stiffness = 0, friction = 0;  ///< N/m
     bool acts = true;
+    bool edges = false;  ///< not a node and a triangle
     double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
-    double kept = 0;     ///< gap that is wanted in the end, less what is wanted now, m
-    double gap = 0;      ///< wanted in the end, m
-    int memory = -1;     ///< index into force_
+    Key key{};
   };
   bool own(std::uint32_t node) const { return node >= first_ && node < end_; }
-  /// Where force_ keeps what presses on the pair's node from that side; -1 for edges and others' nodes.
-  int memory_of(const LayerPair& pair) const;
+  double remembered(const Key& key) const;
+  Constraint constraint(const LayerPair& pair) const;
+  /// A pair of own_ as it meets on its way; none if it does not.
+  std::optional<LayerPair> meeting(const FeaturePair& features) const;
+
   double room(const Constraint& c, kernels::Components<const Real> move) const;
+  /// Along the normal, N; below 0 it would pull.
+  double push(const Constraint& c, kernels::Components<const Real> move) const {
+    return c.pressed - c.stiffness * room(c, move);
+  }
   Vec3 force_at(const Constraint& c, kernels::Components<const Real> move) const;
   void adapt(kernels::Components<const Real> move);
   Vec3 slip(const Constraint& c, kernels::Components<const Real> move) const;
 
   const LayerNodes& nodes_;
+  Grid grid_;
   std::uint32_t first_, end_;  ///< of this cloth's nodes
   LayerParameters parameters_;
   std::vector<LayerPair> pairs_;
   std::vector<Constraint> constraints_;
-  std::vector<float> force_;      ///< N, on each node from either side
-  std::vector<float> stiffness_;  ///< at each node, as a multiple of the inertia
-  std::vector<char> strained_;    ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
+  std::vector<std::pair<Key, double>> forces_;  ///< of the last substep, N, sorted
+  std::vector<float> stiffness_;                ///< at each node, as a multiple of the inertia
+  std::vector<char> met_;                       ///< nodes, in a round
+  std::vector<char> strained_;  ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
   std::vector<std::size_t> struck_;
   std::vector<Vec3> given_;
-  double seconds_ = 0;  ///< of the substep
+  Substep substep_;
+  LayerNodes own_;        ///< this cloth's nodes alone, on their ways in the substep
+  FeatureSearch search_;  ///< among them
+  int rounds_ = 0;        ///< in which meeting pairs were held, of the substep
 };
 
 extern template class LayerContacts<float>;

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
+#include "cloth/grid.h"
 #include "cloth/layers/features.h"
 
 namespace weft {
@@ -22,5 +24,18 @@ struct LayerNodes {
 inline FourPoints points_of(const FeaturePair& pair, const std::vector<Vec3>& of) {
   return {of[pair.node[0]], of[pair.node[1]], of[pair.node[2]], of[pair.node[3]]};
 }
+
+/// The side of a sheet, 0 or 1, on which `direction` leads away from its node `i`; `position` are its nodes'.
+inline int side_of_sheet(const Grid& grid, const Vec3* position, std::size_t i, const Vec3& direction) {
+  const int r = static_cast<int>(i) / grid.stride, c = static_cast<int>(i) % grid.stride;
+  const auto x = [&](int row, int col) -> const Vec3& {
+    return position[grid.index(std::clamp(row, 0, grid.rows - 1), std::clamp(col, 0, grid.cols - 1))];
+  };
+  return (x(r + 1, c) - x(r - 1, c)).cross(x(r, c + 1) - x(r, c - 1)).dot(direction) > 0 ? 1 : 0;
+}
+
+/// Crossing edges are held apart by this part of the thickness: between layers that lie flat on each other
+/// the nodes alone do it.
+constexpr double kEdgePart = 0.5;
 
 }  // namespace weft

@@ -8,9 +8,6 @@
 namespace weft {
 namespace {
 
-/// Crossing edges are held apart by this part of the thickness: between layers that lie flat on each other
-/// the nodes alone do it.
-constexpr double kEdgePart = 0.5;
 /// Nearer features may have passed through each other by rounding, m.
 constexpr double kTouching = 1e-6;
 /// The net keeps features apart by this part.
@@ -57,7 +54,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   net_ = CollisionNet(kNetPart * least);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     contacts_.push_back(std::make_unique<LayerContacts<Real>>(
-        nodes_, i, LayerParameters{parameters_.thickness, parameters_.friction}));
+        nodes_, grids[i], i, LayerParameters{gaps_[i], net_.gap(), parameters_.friction}));
     cloths[i].set_layers(contacts_.back().get());
   }
   may_be_tangled_ = true;
@@ -94,17 +91,21 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   const bool anew = !found_;
   found_ = true;
+  left_out_.resize(cloths.size(), 0);
   read(cloths, nodes_.start);
   read_masses(cloths);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     const Particles<Real>& particles = cloths[k].particles();
     const auto v = kernels::components(particles.velocity);
+    // Where a step was left out the last velocities are not those of a step before.
+    const bool gap = left_out_[k] != 0 || cloths[k].left_out();
+    left_out_[k] = cloths[k].left_out() ? 1 : 0;
     for (std::size_t i = 0; i < grids_[k].size(); ++i) {
       const std::size_t n = nodes_.first[k] + i;
       const Vec3 before = nodes_.velocity[n];
       nodes_.velocity[n] = nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
       nodes_.acceleration[n] = Vec3(0, 0, 0);
-      if (anew || nodes_.inverse_mass[n] == 0) continue;
+      if (anew || gap || nodes_.inverse_mass[n] == 0) continue;
       nodes_.acceleration[n] =
           (nodes_.velocity[n] - before - nodes_.inverse_mass[n] * contacts_[k]->given()[i]) / dt;
     }
@@ -128,19 +129,6 @@ std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
   return static_cast<std::size_t>(std::upper_bound(nodes_.first.begin(), nodes_.first.end(), node) -
                                   nodes_.first.begin()) -
          1;
-}
-
-template <class Real>
-Vec3 Layers<Real>::sheet_normal(std::uint32_t node) const {
-  const std::size_t sheet = sheet_of(node);
-  const Grid& grid = grids_[sheet];
-  const auto i = static_cast<int>(node - nodes_.first[sheet]);
-  const int r = i / grid.stride, c = i % grid.stride;
-  const auto x = [&](int row, int col) -> const Vec3& {
-    return nodes_.start[nodes_.first[sheet] +
-                        grid.index(std::clamp(row, 0, grid.rows - 1), std::clamp(col, 0, grid.cols - 1))];
-  };
-  return (x(r + 1, c) - x(r - 1, c)).cross(x(r, c + 1) - x(r, c - 1));
 }
 
 template <class Real>
@@ -178,7 +166,8 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
       edges.push_back(pair);
       continue;
     }
-    pair.side = sheet_normal(features.node[0]).dot(pair.normal) > 0 ? 1 : 0;
+    pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
+                              features.node[0] - nodes_.first[one], pair.normal);
     int& slot = nearest[2 * std::size_t{features.node[0]} + static_cast<std::size_t>(pair.side)];
     if (slot < 0) {
       slot = static_cast<int>(found.size());

@@ -38,7 +38,6 @@ class Layers {
   void find_tangles();
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   std::size_t sheet_of(std::uint32_t node) const;
-  Vec3 sheet_normal(std::uint32_t node) const;
 
   ClothContactEffect parameters_;
   std::vector<Grid> grids_;
@@ -47,7 +46,8 @@ class Layers {
   FeatureSearch search_;
   CollisionNet net_{0};
   std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
-  bool found_ = false;  ///< pairs, at these levels
+  std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
+  bool found_ = false;          ///< pairs, at these levels
   bool may_be_tangled_ = true;
   int tangled_ = 0;
 };

@@ -43,28 +43,11 @@ class Contacts : public ::testing::Test {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(Contacts, Scalars);
 
-TEST(SolidJustPut, LeadsANodeOutEvenlyInThreeSteps) {
-  // 0.3 m deep: a third of the way in the first step, half of the rest in the second, all in the third; in
-  // two halves of a step as far as in the whole.
-  Solid ball = solid_ball({0, 0, 0}, 0.6);
-  Vec3 node(0, 0.3, 0);
-  for (const int left : {3, 2, 1}) {
-    ball.steps_to_clear = left;
-    EXPECT_NEAR(ball.led_out(node, 0, 1), 0.1, 1e-15);
-    EXPECT_NEAR(ball.depth_left(node, 0, 1), 0.1 * (left - 1), 1e-15);
-    for (const double from : {0.0, 0.5}) node.y() += ball.led_out(node, from, from + 0.5);
-    EXPECT_NEAR(node.y(), 0.6 - 0.1 * (left - 1), 1e-15);
-  }
-  ball.steps_to_clear = 0;
-  EXPECT_EQ(ball.depth_left({0, 0.3, 0}, 0, 0.5), 0);
-  EXPECT_EQ(ball.led_out({0, 0.7, 0}, 0, 1), 0);
-}
-
-TEST(SolidJustPut, AddedOnesAreSoForThreeSteps) {
+TEST(Colliders, ABallIsJustPutForOneStep) {
   Colliders colliders({BallDescription{}});
-  for (const int left : {3, 2, 1, 0, 0}) {
+  for (const bool just_put : {true, false, false}) {
     colliders.begin_step(0, 0.1, Vec3::Zero());
-    EXPECT_EQ(colliders.solids()[0].steps_to_clear, left);
+    EXPECT_EQ(colliders.solids()[0].just_put, just_put);
     colliders.end_step();
   }
 }

@@ -38,12 +38,12 @@ inline SimulationDescription dropped_on_edge(int level, const IntegratorDescript
   return scene;
 }
 
-/// A strip held above and below, wrung by four turns in 4 s while its ends approach.
+/// A strip held above and below, wrung by four turns in 2 s while its ends approach.
 inline SimulationDescription wrung(int level, const IntegratorDescription& stepping) {
   SimulationDescription scene = cloth_scene({0.3, 1}, level, stepping);
   ObstacleDescription hand{BoxDescription{{0.01, 0.01, 0.01}}, {0, -2, 0}};
   for (int quarter = 0; quarter <= 16; ++quarter) {
-    hand.path.push_back(turned(0.25 * quarter, {0, -2 + 0.5 * quarter / 16, 0}, quarter / 4.0));
+    hand.path.push_back(turned(0.125 * quarter, {0, -2 + 0.5 * quarter / 16, 0}, quarter / 4.0));
   }
   scene.obstacles = {hand};
   scene.cloths[0].pins = {PinRegion{0, 1, 0, 0}, PinRegion{0, 1, 1, 1}};

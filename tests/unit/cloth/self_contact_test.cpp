@@ -23,6 +23,39 @@ int intersections_in(Simulation<float>& simulation, double seconds) {
   return count + intersections(simulation);
 }
 
+/// J, of a cloth's motion, springs, and height.
+double energy(const Simulation<float>& simulation) {
+  const ClothReport report = simulation.report(0);
+  return report.kinetic_energy + report.potential_energy;
+}
+
+/// Where a cloth is held, and the force, N, by which its springs and weight pull there.
+struct Held {
+  std::vector<Vec3> position, force;
+};
+Held held(const Simulation<float>& simulation) {
+  const Cloth<float>& cloth = simulation.cloths()[0];
+  const Particles<float>& particles = cloth.particles();
+  VectorField<float> force(particles.grid());
+  cloth.springs().add_forces(particles.position, force);
+  Held result;
+  each_node(particles.grid(), [&](int r, int c) {
+    if (particles.inverse_mass.at(r, c) != 0) return;
+    result.position.push_back(particles.position_at(r, c));
+    result.force.push_back(get(force, r, c) + double(particles.mass.at(r, c)) * standard_gravity());
+  });
+  return result;
+}
+
+/// J, that who holds the cloth puts in from one state to another: force times way, by the trapezoidal rule.
+double work(const Held& from, const Held& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.position.size(); ++i) {
+    sum -= (from.force[i] + to.force[i]).dot(to.position[i] - from.position[i]) / 2;
+  }
+  return sum;
+}
+
 struct Stepping {
   const char* name;
   IntegratorDescription description;
@@ -76,10 +109,29 @@ TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
   EXPECT_GT(intersections_in(without, 2), 0);
 }
 
-TEST_P(SelfContact, StripWrungByFourTurnsNeverCrossesItself) {
+// The hands put in energy, contact only takes some: less what they put in it never rises by more than 5 % of
+// that, be it for the net's sake (0.06 to 0.4 J of 15 were seen; where the net held the rope, all 10 that
+// were put in). XPBD's springs, far from solved in a rope so tight, pull at the hands by another force than
+// theirs.
+TEST_P(SelfContact, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) {
   Simulation<float> simulation(wrung(4, GetParam().description));
-  EXPECT_EQ(intersections_in(simulation, 4.2), 0);
+  double put_in = 0, lowest = energy(simulation), most_risen = 0;
+  int crossings = 0;
+  Held before = held(simulation);
+  for (int step = 1; step <= 132; ++step) {
+    simulation.step();
+    const Held now = held(simulation);
+    put_in += work(before, now);
+    before = now;
+    lowest = std::min(lowest, energy(simulation) - put_in);
+    most_risen = std::max(most_risen, energy(simulation) - put_in - lowest);
+    if (step % 4 == 0) crossings += intersections(simulation);
+  }
+  EXPECT_EQ(crossings, 0);
   EXPECT_TRUE(simulation.healthy());
+  if (std::holds_alternative<XpbdDescription>(GetParam().description)) return;
+  EXPECT_GT(put_in, 5);
+  EXPECT_LT(most_risen, 0.05 * put_in);
 }
 
 TEST_P(SelfContact, ClothPulledOffABallNeverCrossesItself) {
@@ -100,10 +152,6 @@ TEST_P(SelfContact, ClothsOfASceneDoNotPassThroughEachOther) {
 // swing together without drag, clap, and stay. Before they meet it is the method's own affair.
 TEST_P(SelfContact, ClappingBringsInNoEnergy) {
   SimulationDescription scene = clapping(5, GetParam().description);
-  const auto energy = [](const Simulation<float>& simulation) {
-    const ClothReport report = simulation.report(0);
-    return report.kinetic_energy + report.potential_energy;
-  };
   Simulation<float> simulation(scene);
   double lowest = energy(simulation), most_risen = 0;
   const double start = lowest;
@@ -133,10 +181,8 @@ TEST_P(SelfContact, ClothRubsOnCloth) {
   const Vec3 first = after_half_a_second(slides), second = after_half_a_second(slides),
              third = after_half_a_second(slides);
   const double acceleration = 0.589702;  // m/s2
-  const bool xpbd = std::holds_alternative<XpbdDescription>(GetParam().description);
-  // To the implicit methods a cloth rubs with its own nodes alone, not with the other's on its triangles,
-  // whose share of the weight is here about a tenth: mu g cos / 10 = 0.28 m/s2.
-  EXPECT_NEAR((third - 2 * second + first).norm() / 0.25, acceleration, xpbd ? 0.1 * acceleration : 0.28);
+  // Friction is off by the fiftieth part, 0.0553 m/s2 of g cos friction: a tenth of what is left of gravity.
+  EXPECT_NEAR((third - 2 * second + first).norm() / 0.25, acceleration, 0.1 * acceleration);
 }
 
 // Levels may change at any time, whatever that does to a heap: what becomes entangled is left alone.

@@ -48,7 +48,8 @@ TEST(Settle, TakesOutWhatAMergePutsIntoTheSpringsAcrossAFold) {
   Merged merged;
   EXPECT_NEAR(merged.strain(), 1 - std::cos(std::asin(0.0625 / 0.4)), 1e-12);
   const double before = merged.springs.energy(merged.sheet.position);
-  settle<double>(merged.sheet, merged.springs, nullptr, merged.cloth, nullptr, {}, 1.0 / 60);
+  settle<double>(merged.sheet, Unsettled::by_level, merged.springs, nullptr, merged.cloth, nullptr, {},
+                 1.0 / 60);
   EXPECT_LT(merged.strain(), 0.1 * (1 - std::cos(std::asin(0.0625 / 0.4))));
   EXPECT_LT(merged.springs.energy(merged.sheet.position), 0.1 * before);
   each_node(merged.sheet.grid(),
@@ -61,9 +62,30 @@ TEST(Settle, LeavesAFlatSheetWhereItIs) {
   const Particles<double> before = sheet;
   const ClothDescription cloth;
   const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
-  settle<double>(sheet, springs, nullptr, cloth, nullptr, {}, 1.0 / 60);
+  settle<double>(sheet, Unsettled::by_level, springs, nullptr, cloth, nullptr, {}, 1.0 / 60);
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_LT((sheet.position_at(r, c) - before.position_at(r, c)).norm(), 1e-12);
+  });
+}
+
+TEST(Settle, LetsNodesOutOfABallPutOntoThemWithoutMotion) {
+  Particles<double> sheet = test::flat_sheet<double>(17, 17, kSize);
+  test::share_mass(sheet, 0.4, Discretization::continuum);
+  each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {1, 2, 3}); });
+  const ClothDescription cloth;
+  const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
+  Contact<double> contact(sheet.grid());
+  // Half of the ball is above the sheet's middle.
+  Solid ball{.id = 1, .shape = Sphere{0.3}};
+  ball.start = ball.position = sheet.position_at(8, 8);
+  EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));  // it was there before
+  ball.just_put = true;
+  EXPECT_TRUE(is_put_onto(sheet, contact, {ball}));
+  settle<double>(sheet, Unsettled::by_solid, springs, nullptr, cloth, &contact, {ball}, 1.0 / 60);
+  EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));
+  each_node(sheet.grid(), [&](int r, int c) {
+    EXPECT_GE((sheet.position_at(r, c) - ball.position).norm(), 0.3);
+    EXPECT_EQ(sheet.velocity_at(r, c), Vec3(1, 2, 3));
   });
 }
 

@@ -106,20 +106,23 @@ TEST(SimulationBalls, ThreeSheetsThatShareABallKeepTheMomentumToo) {
 
 TEST(SimulationBalls, FarTilesAreNotExaminedInAWholeRun) {
   // Level 6, a ball of 5 cm resting in the middle of one of 64 tiles of a sheet held all round: at most that
-  // tile in each substep, before it (which nodes will meet it), in it (which are inside) and after it.
+  // tile in each substep, before it (which nodes will meet it), in it (which are inside) and after it; the
+  // first step, which begins with letting nodes out of it, is not counted.
   SimulationDescription scene;
   ClothDescription cloth;
   cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
   scene.cloths = {cloth};
   scene.balls = {ball_at({0.125, 0.125, 0.04}, 0.05)};
   Simulation<float> simulation(scene);
+  run(simulation, 1);
+  const ContactCounters first = simulation.cloths()[0].contact_counters();
   run(simulation, 3);
   const ContactCounters counters = simulation.cloths()[0].contact_counters();
   const auto substeps = std::uint64_t(simulation.report(0).substeps);
-  EXPECT_GT(counters.nodes_in_contact, 0u);
-  EXPECT_LE(counters.tiles_examined, 3 * 3 * substeps);
-  EXPECT_GE(counters.tiles_examined, substeps);
-  EXPECT_LE(counters.nodes_tested, 3 * 3 * substeps * 81);
+  EXPECT_GT(counters.nodes_in_contact, first.nodes_in_contact);
+  EXPECT_LE(counters.tiles_examined - first.tiles_examined, 3 * 3 * substeps);
+  EXPECT_GE(counters.tiles_examined - first.tiles_examined, substeps);
+  EXPECT_LE(counters.nodes_tested - first.nodes_tested, 3 * 3 * substeps * 81);
 }
 
 TEST(SimulationBalls, LongStepsOntoARoughOneBringInNoEnergy) {

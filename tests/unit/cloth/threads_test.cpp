@@ -267,6 +267,15 @@ TEST(Threads, ClothsOnOneAnotherHaveTheSameBitsOnAnyNumber) {
   expect_same_bits(cloths_on_one_another(), kAll, kStackSteps / 4, 0);
 }
 
+TEST(Threads, TearingClothsHaveTheSameBitsOnAnyNumber) {
+  SimulationDescription scene = stacked_sheets();
+  scene.effects.push_back(TearingEffect{5, 5});
+  Simulation<float> tears(scene);
+  for (int i = 0; i < kStackSteps / 4; ++i) tears.step();
+  EXPECT_NE(tears.cloths()[0].walls(), nullptr);
+  expect_same_bits(scene, kAll, kStackSteps / 4, 0);
+}
+
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {
   expect_same_bits(large_sheet(), kImplicit, kLargeSteps, 1);
 }

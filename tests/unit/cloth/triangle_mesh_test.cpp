@@ -130,6 +130,27 @@ TEST(TriangleMesh, SidesBesideEdgesAndCorners) {
   }
 }
 
+// Its cells hold triangles of both sides, which face away from each other.
+TEST(TriangleMesh, SidesOfAThinLensKnownToBeConvex) {
+  TriangleList lens = sphere_mesh(1, 20, 40);
+  for (Vec3& v : lens.vertices) v.y() *= 0.03;
+  const Oracle oracle(lens);
+  const TriangleMesh unknown(lens);
+  lens.convex = true;
+  const TriangleMesh known(lens);
+  Points points(1.02);
+  int inside = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    Vec3 point = points.next();
+    point.y() *= 0.05;
+    const bool in = oracle.inside(point, Vec3(0.36, 0.48, 0.8));
+    EXPECT_EQ(known.contains(point), in) << point.transpose();
+    EXPECT_EQ(unknown.contains(point), in) << point.transpose();
+    if (in) ++inside;
+  }
+  EXPECT_NEAR(inside / 5000.0, 4 * M_PI / 3 * 0.03 / (8 * 1.02 * 1.02 * 1.02 * 0.05), 0.02);  // 30 %
+}
+
 TEST(TriangleMesh, OfATetrahedron) {
   const TriangleMesh mesh(corner_tetrahedron());
   // (0.1, 0.1, 0.1) is 0.1 m from three faces and (1 - 0.3) / sqrt 3 from the slanted one.

@@ -1,5 +1,6 @@
 // Fields arrive where they belong; what is left out has the defaults of cloth/description.h.
 #include <cmath>
+#include <limits>
 
 #include "fixtures.h"
 
@@ -71,6 +72,17 @@ TEST(Reader, ClothFields) {
   EXPECT_TRUE(is(cloth.pins[2], 0.25, 0.25, 0.75, 0.75));
   EXPECT_TRUE(is(cloth.pins[3], 0.25, 0.5, 0, 1));
   EXPECT_TRUE(scene.simulation.cloths[1].orientation.isApprox(Quaternion::Identity()));
+}
+
+TEST(Reader, Relevance) {
+  const auto cloths = read_good("everything").simulation.cloths;
+  EXPECT_EQ(cloths.at(0).relevance.unseen, Relevance::Unseen::step);
+  EXPECT_EQ(cloths.at(0).relevance.far, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(cloths.at(1).relevance.unseen, Relevance::Unseen::sleep);
+  EXPECT_EQ(cloths.at(1).relevance.far, 25);
+  EXPECT_EQ(cloths.at(2).relevance.unseen, Relevance::Unseen::coarse);
+  const Scene scene = good(parse(R"({"cloths":[{"relevance":{"unseen":"step"}}]})", "step"));
+  EXPECT_EQ(scene.simulation.cloths.at(0).relevance.unseen, Relevance::Unseen::step);
 }
 
 TEST(Reader, MaterialsByNameByNameWithChangesAndRaw) {
@@ -154,6 +166,20 @@ TEST(Reader, PathsOfObstacles) {
   const ObstacleDescription& plane = simulation.obstacles[2];
   EXPECT_EQ(plane.path.at(1).pose.position, Vec3(0, -2, 0));
   EXPECT_FALSE(plane.loop);
+}
+
+TEST(Reader, StrengthIsOneNumberOrTwo) {
+  const auto tearing = [](const char* strength) {
+    const std::string text =
+        std::string(R"({"cloths": [{}], "effects": [{"type": "tearing")") + strength + "}]}";
+    return std::get<TearingEffect>(good(parse(text, "torn")).simulation.effects.at(0));
+  };
+  EXPECT_EQ(tearing("").warp, 1000);
+  EXPECT_EQ(tearing("").weft, 1000);
+  EXPECT_EQ(tearing(R"(, "strength": 250)").warp, 250);
+  EXPECT_EQ(tearing(R"(, "strength": 250)").weft, 250);
+  EXPECT_EQ(tearing(R"(, "strength": [300, 200.5])").warp, 300);
+  EXPECT_EQ(tearing(R"(, "strength": [300, 200.5])").weft, 200.5);
 }
 
 TEST(Reader, EffectsWindAndStepping) {

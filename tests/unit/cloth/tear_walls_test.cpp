@@ -1,0 +1,381 @@
+// Walls, what they cut at each level, and springs that are cut.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cloth/kernels/implicit_kernels.h"
+#include "cloth/solver/multigrid.h"
+#include "cloth/tear/mend.h"
+#include "cloth/tear/tearing.h"
+#include "cloth/tear/walls.h"
+#include "fixtures.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+using test::get;
+using test::set;
+
+constexpr BaseCells kBase{1, 2};  // so that rows and columns differ
+
+int count_cut(const TornLinks& links) {
+  int count = 0;
+  each_node(links.grid(), [&](int r, int c) {
+    for (const bool along_u : {true, false}) count += links.torn(Link{r, c, along_u}) ? 1 : 0;
+  });
+  return count;
+}
+
+/// Random links of `level`, by seed.
+std::vector<Link> some_links(int level, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const Grid grid = kBase.at(level);
+  std::vector<Link> links;
+  while (static_cast<int>(links.size()) < count) {
+    const bool along_u = random() % 2 == 0;
+    const int r =
+        static_cast<int>(random() % static_cast<std::uint64_t>(along_u ? grid.rows : grid.rows - 1));
+    const int c =
+        static_cast<int>(random() % static_cast<std::uint64_t>(along_u ? grid.cols - 1 : grid.cols));
+    links.push_back({r, c, along_u});
+  }
+  return links;
+}
+
+TEST(Walls, CutThatOneLinkOfTheirOwnLevel) {
+  for (const int level : {3, 4, 5}) {
+    for (const Link& link : some_links(level, 50, 1)) {
+      Walls walls(kBase, 5);
+      walls.add(level, link);
+      const TornLinks at_level = walls.at(level);
+      EXPECT_EQ(count_cut(at_level), 1) << level;
+      EXPECT_TRUE(at_level.torn(link)) << level << ' ' << link.row << ' ' << link.col;
+    }
+  }
+}
+
+TEST(Walls, ALinkIsCutWhereEitherOfItsHalvesIs) {
+  Walls walls(kBase, 6);
+  for (const int level : {4, 5, 6}) {
+    for (const Link& link : some_links(level, 20, static_cast<std::uint64_t>(level))) walls.add(level, link);
+  }
+  for (const int level : {3, 4, 5}) {
+    const TornLinks coarse = walls.at(level), fine = walls.at(level + 1);
+    each_node(coarse.grid(), [&](int r, int c) {
+      const bool u = c + 1 < coarse.grid().cols &&
+                     (fine.torn(Link{2 * r, 2 * c, true}) || fine.torn(Link{2 * r, 2 * c + 1, true}));
+      const bool v = r + 1 < coarse.grid().rows &&
+                     (fine.torn(Link{2 * r, 2 * c, false}) || fine.torn(Link{2 * r + 1, 2 * c, false}));
+      EXPECT_EQ(coarse.torn(Link{r, c, true}), u) << level << ' ' << r << ' ' << c;
+      EXPECT_EQ(coarse.torn(Link{r, c, false}), v) << level << ' ' << r << ' ' << c;
+    });
+  }
+}
+
+/// Whether the last row hangs together with the first one by structural links.
+bool hangs_together(const TornLinks& links) {
+  const Grid& grid = links.grid();
+  std::vector<char> reached(static_cast<std::size_t>(grid.nodes()));
+  std::vector<std::pair<int, int>> left;
+  const auto reach = [&](int r, int c) {
+    char& here = reached[static_cast<std::size_t>(r * grid.cols + c)];
+    if (here == 0) left.emplace_back(r, c);
+    here = 1;
+  };
+  for (int c = 0; c < grid.cols; ++c) reach(0, c);
+  while (!left.empty()) {
+    const auto [r, c] = left.back();
+    left.pop_back();
+    if (r + 1 == grid.rows) return true;
+    if (c + 1 < grid.cols && !links.torn(Link{r, c, true})) reach(r, c + 1);
+    if (c > 0 && !links.torn(Link{r, c - 1, true})) reach(r, c - 1);
+    if (!links.torn(Link{r, c, false})) reach(r + 1, c);
+    if (r > 0 && !links.torn(Link{r - 1, c, false})) reach(r - 1, c);
+  }
+  return false;
+}
+
+TEST(Walls, OfALineAcrossTheSheetPartItAtEveryLevel) {
+  for (const int level : {3, 4, 6}) {
+    Walls walls(kBase, 6);
+    const Grid grid = kBase.at(level);
+    // A step in the middle: the line turns along u-links' walls for two columns.
+    for (int c = 0; c < grid.cols; ++c) walls.add(level, {c < grid.cols / 2 ? 4 : 6, c, false});
+    for (const int r : {5, 6}) walls.add(level, {r, grid.cols / 2 - 1, true});
+    for (int at = 3; at <= 6; ++at) EXPECT_FALSE(hangs_together(walls.at(at))) << level << " at " << at;
+  }
+}
+
+TEST(TornLinks, FacesAndSlantingLinksFollowTheirEdges) {
+  // One cell, all 16 ways to lose edges: falling joins (0, 0) and (1, 1), rising (0, 1) and (1, 0).
+  for (int lost = 0; lost < 16; ++lost) {
+    TornLinks links(Grid::with_nodes(2, 2));
+    const bool top = (lost & 1) != 0, left = (lost & 2) != 0, right = (lost & 4) != 0,
+               bottom = (lost & 8) != 0;
+    if (top) links.cut({0, 0, true});
+    if (left) links.cut({0, 0, false});
+    if (right) links.cut({0, 1, false});
+    if (bottom) links.cut({1, 0, true});
+    EXPECT_EQ(links.torn(0, 0, 1, 1), (top || right) && (left || bottom)) << lost;
+    EXPECT_EQ(links.torn(0, 1, 1, -1), (top || left) && (right || bottom)) << lost;
+    EXPECT_EQ(links.face_torn(0, 0), top + left + right + bottom >= 2) << lost;
+    EXPECT_EQ(links.torn_faces().size() + links.whole_faces().size(), 1U);
+  }
+}
+
+TEST(TornLinks, WholeFacesAreAllThatAreNotTorn) {
+  Walls walls(kBase, 4);
+  for (const Link& link : some_links(4, 150, 7)) walls.add(4, link);
+  const TornLinks links = walls.at(4);
+  const int cols = links.grid().cols - 1;
+  std::vector<int> seen(static_cast<std::size_t>(links.grid().cells()));
+  for (const FaceRun& run : links.whole_faces()) {
+    EXPECT_LT(run.begin, run.end);
+    for (int c = run.begin; c < run.end; ++c) ++seen[static_cast<std::size_t>(run.row * cols + c)];
+  }
+  for (const std::uint32_t face : links.torn_faces()) ++seen[face];
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), links.grid().cells());
+  EXPECT_GT(links.torn_faces().size(), 20U);
+}
+
+// --- Springs that are cut ---
+
+struct TornSheet {
+  Walls walls{kBase, 3};
+  std::shared_ptr<const TornLinks> torn;
+  VectorField<double> position{kBase.at(3)};
+
+  TornSheet() {
+    for (const Link& link : some_links(3, 60, 3)) walls.add(3, link);
+    torn = std::make_shared<const TornLinks>(walls.at(3));
+    test::randomise(position, -1, 1, 5);
+  }
+  Springs<double> springs(double damping_time, bool limited) const {
+    Springs<double> made(test::stiffnesses(500, 200, 50), Discretization::continuum, {1, 2}, position.grid(),
+                         damping_time, limited);
+    made.tear(torn);
+    return made;
+  }
+  bool is_cut(const test::ListedSpring& s) const { return torn->torn(s.r0, s.c0, s.r1 - s.r0, s.c1 - s.c0); }
+};
+
+TEST(TornSprings, PushAndHoldWhatTheOthersDo) {
+  const TornSheet sheet;
+  for (const bool limited : {false, true}) {
+    const Springs<double> springs = sheet.springs(0, limited);
+    VectorField<double> force(sheet.position.grid()), expected(sheet.position.grid());
+    springs.add_forces(sheet.position, force);
+    double energy = 0;
+    int cut = 0;
+    for (const SpringFamily& family : springs.families()) {
+      for (const auto& s : test::list_springs({family}, sheet.position.grid())) {
+        cut += sheet.is_cut(s) ? 1 : 0;
+        if (sheet.is_cut(s)) continue;
+        const Vec3 d = get(sheet.position, s.r0, s.c0) - get(sheet.position, s.r1, s.c1);
+        const Vec3 f = spring_force(d, s.rest_length, s.stiffness, family.limit);
+        set(expected, s.r0, s.c0, get(expected, s.r0, s.c0) + f);
+        set(expected, s.r1, s.c1, get(expected, s.r1, s.c1) - f);
+        energy += spring_energy(d, s.rest_length, s.stiffness, family.limit);
+      }
+    }
+    EXPECT_GT(cut, 100);
+    EXPECT_LT(test::largest_difference(force, expected), 1e-9);
+    EXPECT_NEAR(springs.energy(sheet.position), energy, 1e-9 * energy);
+  }
+}
+
+TEST(TornSprings, AreDampedWhereTheyAreWhole) {
+  const TornSheet sheet;
+  const Springs<double> springs = sheet.springs(0.01, false);
+  VectorField<double> change(sheet.position.grid()), force(sheet.position.grid()),
+      expected(sheet.position.grid());
+  test::randomise(change, -1, 1, 9);
+  springs.add_damping(sheet.position, kernels::components(std::as_const(change)), 0.5, force);
+  for (const auto& s : test::list_springs(springs.families(), sheet.position.grid())) {
+    if (sheet.is_cut(s)) continue;
+    const Vec3 n = (get(sheet.position, s.r0, s.c0) - get(sheet.position, s.r1, s.c1)).normalized();
+    const Vec3 f = -0.01 / 0.5 * s.stiffness * n * n.dot(get(change, s.r0, s.c0) - get(change, s.r1, s.c1));
+    set(expected, s.r0, s.c0, get(expected, s.r0, s.c0) + f);
+    set(expected, s.r1, s.c1, get(expected, s.r1, s.c1) - f);
+  }
+  EXPECT_LT(test::largest_difference(force, expected), 1e-9);
+}
+
+TEST(TornSprings, AreNoPartOfTheLinearisation) {
+  const TornSheet sheet;
+  const Grid& grid = sheet.position.grid();
+  Multigrid<double> system(grid, true);
+  auto& links = system.finest().matrix.links;
+  NodeArrays<double> fields(grid, 3);
+  const auto position = fields.vector(0);
+  std::copy_n(sheet.position.x.row(0), grid.size(), position.x);
+  std::copy_n(sheet.position.y.row(0), grid.size(), position.y);
+  std::copy_n(sheet.position.z.row(0), grid.size(), position.z);
+  sheet.springs(0, false).linearise(grid, position, links);
+  const auto stiff = [&](const kernels::SpringLinks<double>& link, std::size_t i) {
+    return std::abs(link.a[i]) + std::abs(link.x[i]) + std::abs(link.y[i]) + std::abs(link.z[i]);
+  };
+  each_node(grid, [&](int r, int c) {
+    const auto check = [&](const kernels::SpringLinks<double>& link, int rows, int cols) {
+      if (r + rows >= grid.rows || c + cols >= grid.cols || c + cols < 0) return;
+      EXPECT_EQ(stiff(link, grid.index(r, c)) == 0, sheet.torn->torn(r, c, rows, cols)) << r << ' ' << c;
+    };
+    check(links.along_u, 0, 1);
+    check(links.along_v, 1, 0);
+    check(links.falling, 1, 1);
+    check(links.rising, 1, -1);
+    check(links.bending_u, 0, 2);
+    check(links.bending_v, 2, 0);
+  });
+}
+
+// --- What breaks ---
+
+TEST(LinkLoads, AreTheTensionPerMetreOfAnEvenlyStretchedSheet) {
+  // 1 m x 2 m, stretched by 2 % along v alone: structural springs Y e, a diagonal at 45 degrees e / 2 longer
+  // with k = G, two a cell, sin^2 45 of each per metre across: G e / 2 ... to second order in e.
+  constexpr double kStretch = 1e-4, kStructural = 500, kShear = 200;
+  VectorField<double> position(kBase.at(3));
+  each_node(position.grid(), [&](int r, int c) {
+    set(position, r, c, {c / 8.0, -r / 8.0 * (1 + kStretch), 0});
+  });
+  const Springs<double> springs(test::stiffnesses(kStructural, kShear, 0), Discretization::continuum, {1, 2},
+                                position.grid());
+  TearingEffect tearing;
+  tearing.warp = 2;
+  tearing.weft = 4;
+  const LinkLoads loads = link_loads(springs, position, tearing);
+  // Per cell of width h: 2 diagonals, each of force k (d e / 2) with k = G, d = sqrt(2) h, cos 45 of it along
+  // either way: G e h, that is G e per metre both along v and, as nothing gives, along u.
+  each_node(position.grid(), [&](int r, int c) {
+    const auto node = static_cast<std::size_t>(r * 9 + c);
+    if (r + 1 < position.grid().rows) {
+      EXPECT_NEAR(loads.v[node] * 4, (kStructural + kShear) * kStretch, 2e-4 * kStretch * kStructural);
+    }
+    if (c + 1 < position.grid().cols) {
+      EXPECT_NEAR(loads.u[node] * 2, kShear * kStretch, 2e-4 * kStretch * kStructural);
+    }
+  });
+}
+
+TEST(LinkLoads, OfALineAddUpToTheForceAcrossIt) {
+  const TornSheet sheet;
+  const Springs<double> springs = sheet.springs(0, true);
+  // Flat and stretched, so that all links of a line point the same way.
+  VectorField<double> position(kBase.at(3));
+  each_node(position.grid(), [&](int r, int c) {
+    set(position, r, c, {c * 0.13, -r * (0.12 + 0.002 * r), 0});
+  });
+  const LinkLoads loads = link_loads(springs, position, TearingEffect{1, 1});
+  for (int r = 0; r + 1 < position.grid().rows; ++r) {
+    double sum = 0, expected = 0;
+    for (int c = 0; c < 9; ++c) {
+      sum += loads.v[static_cast<std::size_t>(r * 9 + c)] / 8 * (c == 0 || c == 8 ? 0.5 : 1);
+    }
+    for (const SpringFamily& family : springs.families()) {
+      if (family.rows != 1) continue;
+      for (const auto& s : test::list_springs({family}, position.grid())) {
+        if (s.r0 != r || sheet.is_cut(s)) continue;
+        // A diagonal's share counts where one of the two links beside it is there to carry it.
+        const Vec3 d = get(position, s.r0, s.c0) - get(position, s.r1, s.c1);
+        const double force = -spring_force(d, s.rest_length, s.stiffness, family.limit).y();
+        double share = 1;
+        if (family.cols != 0) {
+          share = 0.5 * (sheet.torn->torn(Link{r, s.c0, false}) ? 0 : 1) +
+                  0.5 * (sheet.torn->torn(Link{r, s.c1, false}) ? 0 : 1);
+        }
+        expected += share * force;
+      }
+    }
+    EXPECT_NEAR(sum, expected, 1e-9 * std::abs(expected)) << r;
+  }
+}
+
+LinkLoads even_loads(const Grid& grid, double u, double v) {
+  const auto nodes = static_cast<std::size_t>(grid.nodes());
+  return {grid, std::vector<double>(nodes, u), std::vector<double>(nodes, v)};
+}
+
+TEST(LinksToBreak, NoneWithinTheStrength) {
+  const Grid grid = kBase.at(3);
+  EXPECT_TRUE(links_to_break(even_loads(grid, 1, 1), nullptr).empty());
+}
+
+TEST(LinksToBreak, ATearBeginsAtTheOneThatIsLoadedMost) {
+  LinkLoads loads = even_loads(kBase.at(3), 1.2, 1.1);
+  loads.v[5 * 9 + 4] = 1.3;
+  EXPECT_EQ(links_to_break(loads, nullptr), (std::vector<Link>{{5, 4, false}}));
+}
+
+TEST(LinksToBreak, ATearRunsAtBothItsEndsAndNoOtherBegins) {
+  LinkLoads loads = even_loads(kBase.at(3), 0, 1.2);
+  loads.v[5 * 9 + 3] = loads.v[5 * 9 + 5] = 1.5;
+  loads.v[9 * 9 + 1] = 1.9;
+  loads.v[5 * 9 + 4] = 0;
+  TornLinks torn(kBase.at(3));
+  torn.cut({5, 4, false});
+  EXPECT_EQ(links_to_break(loads, &torn), (std::vector<Link>{{5, 3, false}, {5, 5, false}}));
+}
+
+TEST(LinksToBreak, OverloadNeedsNoTearBesideItButIsTheMostOfItsThread) {
+  LinkLoads loads = even_loads(kBase.at(3), 0, 0.5);
+  loads.v[4 * 9 + 2] = 2.5;
+  loads.v[5 * 9 + 2] = 3;  // the next link of the same thread
+  loads.v[9 * 9 + 7] = 2.1;
+  loads.v[12 * 9 + 1] = 1.9;
+  EXPECT_EQ(links_to_break(loads, nullptr), (std::vector<Link>{{5, 2, false}, {9, 7, false}}));
+}
+
+// --- Levels ---
+
+TEST(MendSplit, PutsNewNodesWhereTheirOwnSideGoesOn) {
+  // A flat sheet in two halves, the lower one 3 m further down and moving: on both sides of the tear the new
+  // nodes must lie on their own half's lattice, bit for bit but for rounding, and move as it does.
+  const Grid coarse_grid = kBase.at(3), fine_grid = kBase.at(4);
+  Walls walls(kBase, 5);
+  for (int c = 0; c < coarse_grid.cols; ++c) walls.add(3, {7, c, false});
+  Particles<double> coarse(coarse_grid), fine(fine_grid);
+  const Vec3 moving(1, -2, 3);
+  each_node(coarse_grid, [&](int r, int c) {
+    set(coarse.position, r, c, {c / 8.0, -r / 8.0 - (r > 7 ? 3 : 0), 0});
+    set(coarse.velocity, r, c, r > 7 ? moving : Vec3(0, 0, 0));
+  });
+  split(coarse, fine);
+  const TornLinks torn = walls.at(4);
+  ASSERT_GT(std::abs(get(fine.position, 15, 3).y() + 15 / 16.0), 1.0);  // else there is nothing to mend
+  mend_split(torn, {1 / 16.0, 1 / 16.0}, fine);
+  const int last_above = torn.torn(Link{14, 0, false}) ? 14 : 15;
+  each_node(fine_grid, [&](int r, int c) {
+    const bool below = r > last_above;
+    EXPECT_NEAR((get(fine.position, r, c) - Vec3(c / 16.0, -r / 16.0 - (below ? 3 : 0), 0)).norm(), 0, 1e-12)
+        << r << ' ' << c;
+    EXPECT_EQ(get(fine.velocity, r, c), below ? moving : Vec3(0, 0, 0)) << r << ' ' << c;
+  });
+}
+
+TEST(MergeTornMomentum, KeepsTheSidesApartAndIsTheOrdinaryOneOfAWholeSheet) {
+  const Grid coarse_grid = kBase.at(3), fine_grid = kBase.at(4);
+  Particles<double> fine(fine_grid), coarse(coarse_grid), whole(coarse_grid);
+  mass_distribution(1.0, Discretization::continuum, fine.mass);
+  test::randomise(fine.velocity, -1, 1, 2);
+  merge_torn_momentum(fine, TornLinks(fine_grid), coarse);
+  merge_momentum(fine, whole);
+  EXPECT_LT(test::largest_difference(coarse.velocity, whole.velocity), 1e-14);
+
+  Walls walls(kBase, 5);
+  for (int c = 0; c < coarse_grid.cols; ++c) walls.add(3, {7, c, false});
+  const TornLinks torn = walls.at(4);
+  const int last_above = torn.torn(Link{14, 0, false}) ? 14 : 15;
+  const Vec3 moving(1, -2, 3);
+  each_node(fine_grid,
+            [&](int r, int c) { set(fine.velocity, r, c, r > last_above ? moving : Vec3(0, 0, 0)); });
+  merge_torn_momentum(fine, torn, coarse);
+  each_node(coarse_grid, [&](int r, int c) {
+    EXPECT_NEAR((get(coarse.velocity, r, c) - (r > 7 ? moving : Vec3(0, 0, 0))).norm(), 0, 1e-14)
+        << r << ' ' << c;
+  });
+}
+
+}  // namespace
+}  // namespace weft
