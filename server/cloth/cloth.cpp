@@ -196,6 +196,7 @@ void Cloth<Real>::make_springs() {
 
 template <class Real>
 void Cloth<Real>::tear() {
+  if (surely_holds(springs_, particles_.position, *tearing_)) return;
   const std::vector<Link> breaking =
       links_to_break(link_loads(springs_, particles_.position, *tearing_), torn_.get());
   if (breaking.empty()) return;

@@ -84,6 +84,42 @@ LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& posi
   return loads;
 }
 
+template <class Real>
+bool surely_holds(const Springs<Real>& springs, const VectorField<Real>& position,
+                  const TearingEffect& tearing) {
+  if (springs.torn() != nullptr) return false;
+  const Family<Real> along_u(springs, 0, 1), along_v(springs, 1, 0), falling(springs, 1, 1);
+  if (along_u.family == nullptr) return true;
+  // With all springs longer by the strain e a link bears at most e times this, a share of its strength: its
+  // own force and, all in its direction, four halves of a diagonal's.
+  const auto force = [](const SpringFamily* family) {
+    return family == nullptr ? 0.0 : family->stiffness * family->limit.stiffening * family->rest_length;
+  };
+  const double hx = along_u.family->rest_length, hy = along_v.family->rest_length;
+  const double slanting = 2 * force(falling.family);
+  const double u = (force(along_u.family) + slanting) / (hy * tearing.warp);
+  const double v = (force(along_v.family) + slanting) / (hx * tearing.weft);
+  const double strain = 0.99 / std::max(u, v);  // the rest for rounding
+  const Grid& grid = position.grid();
+  Real most = 0;  // squared length over the rest length's
+  for (const SpringFamily& family : springs.families()) {
+    if (family.rows > 1 || family.cols > 1) continue;
+    const auto scale = static_cast<Real>(1 / (family.rest_length * family.rest_length));
+    const int begin = std::max(0, -family.cols), end = grid.cols - std::max(0, family.cols);
+    for (int r = 0; r + family.rows < grid.rows; ++r) {
+      const Real *x0 = position.x.row(r), *x1 = position.x.row(r + family.rows) + family.cols;
+      const Real *y0 = position.y.row(r), *y1 = position.y.row(r + family.rows) + family.cols;
+      const Real *z0 = position.z.row(r), *z1 = position.z.row(r + family.rows) + family.cols;
+      for (int c = begin; c < end; ++c) {
+        const Real dx = x1[c] - x0[c], dy = y1[c] - y0[c], dz = z1[c] - z0[c];
+        const Real squared = scale * (dx * dx + dy * dy + dz * dz);
+        most = squared > most ? squared : most;
+      }
+    }
+  }
+  return std::sqrt(double(most)) <= 1 + strain;
+}
+
 namespace {
 
 /// Loads by link; one beyond the grid bears nothing.
@@ -147,6 +183,8 @@ std::vector<Link> links_to_break(const LinkLoads& loads, const TornLinks* torn) 
   return breaking;
 }
 
+template bool surely_holds(const Springs<float>&, const VectorField<float>&, const TearingEffect&);
+template bool surely_holds(const Springs<double>&, const VectorField<double>&, const TearingEffect&);
 template LinkLoads link_loads(const Springs<float>&, const VectorField<float>&, const TearingEffect&);
 template LinkLoads link_loads(const Springs<double>&, const VectorField<double>&, const TearingEffect&);
 

@@ -27,6 +27,12 @@ template <class Real>
 LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& position,
                      const TearingEffect& tearing);
 
+/// True only if no link can be loaded beyond its strength, as no spring is long enough: a fraction of what
+/// link_loads costs. Of whole sheets; false for torn ones.
+template <class Real>
+bool surely_holds(const Springs<Real>& springs, const VectorField<Real>& position,
+                  const TearingEffect& tearing);
+
 /// The links that break in a step which leaves these loads; `torn` is what is cut already, or nullptr. Only
 /// such that bear more than their strength, and as few as the step can tell to: a break unloads a sheet as
 /// far as sound gets in a step, often all of it, while loads are known at its end alone.
@@ -36,6 +42,8 @@ LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& posi
 ///  - If there are none of these, the one link that is loaded most: a tear begins.
 std::vector<Link> links_to_break(const LinkLoads& loads, const TornLinks* torn);
 
+extern template bool surely_holds(const Springs<float>&, const VectorField<float>&, const TearingEffect&);
+extern template bool surely_holds(const Springs<double>&, const VectorField<double>&, const TearingEffect&);
 extern template LinkLoads link_loads(const Springs<float>&, const VectorField<float>&, const TearingEffect&);
 extern template LinkLoads link_loads(const Springs<double>&, const VectorField<double>&,
                                      const TearingEffect&);

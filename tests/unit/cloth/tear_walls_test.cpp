@@ -292,6 +292,33 @@ TEST(LinkLoads, OfALineAddUpToTheForceAcrossIt) {
   }
 }
 
+TEST(SurelyHolds, NeverWhereALinkIsLoadedBeyondItsStrength) {
+  // Sheets stretched along both ways and sheared, by more and more: it must say no before the first link is
+  // loaded beyond its strength, and yes while they are hardly stretched.
+  const Springs<double> springs(test::stiffnesses(500, 200, 50), Discretization::continuum, {1, 2},
+                                kBase.at(3));
+  const TearingEffect tearing{10, 20};
+  for (const double shear : {0.0, 0.5, -1.0}) {
+    bool beyond = false;
+    for (int i = 0; i < 40; ++i) {
+      const double stretch = 0.001 * i;
+      VectorField<double> position(kBase.at(3));
+      each_node(position.grid(), [&](int r, int c) {
+        set(position, r, c,
+            {(c + shear * stretch * r) / 8.0 * (1 + stretch), -r / 8.0 * (1 + stretch / 2), 0});
+      });
+      const LinkLoads loads = link_loads(springs, position, tearing);
+      const double most = std::max(*std::max_element(loads.u.begin(), loads.u.end()),
+                                   *std::max_element(loads.v.begin(), loads.v.end()));
+      beyond = beyond || most > 1;
+      const bool holds = surely_holds(springs, position, tearing);
+      EXPECT_FALSE(holds && most > 1) << stretch;
+      EXPECT_TRUE(holds || i >= 5) << stretch;
+    }
+    EXPECT_TRUE(beyond);
+  }
+}
+
 LinkLoads even_loads(const Grid& grid, double u, double v) {
   const auto nodes = static_cast<std::size_t>(grid.nodes());
   return {grid, std::vector<double>(nodes, u), std::vector<double>(nodes, v)};

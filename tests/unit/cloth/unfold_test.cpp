@@ -102,7 +102,8 @@ TEST(Unfold, OnlyBeforeTheFirstStep) {
   SimulationDescription scene;
   ClothDescription cloth;
   cloth.initial_level = cloth.min_level = 4;
-  cloth.nodes.assign(17 * 17, Vec3(0, 0, 0));
+  constexpr std::size_t kAll = std::size_t{17} * 17;
+  cloth.nodes.assign(kAll, Vec3(0, 0, 0));
   scene.cloths = {cloth};
   scene.integrator = BackwardEulerDescription{};  // remembers no motion
   Simulation<double> simulation(scene);
