@@ -21,7 +21,7 @@ constexpr double kWayOut = 1e-3;
 
 /// Calls visit(r, c) for every node.
 template <class Visit>
-void for_each_node(const Grid& grid, Visit visit) {
+void at_each_node(const Grid& grid, Visit visit) {
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.cols; ++c) visit(r, c);
   }
@@ -34,7 +34,7 @@ Particles<Real> coarser(const Particles<Real>& fine, const ClothDescription& clo
   merge(fine, coarse);
   const double mass = cloth.material.density * cloth.size.x() * cloth.size.y();
   mass_distribution(mass, cloth.discretization, coarse.mass);
-  for_each_node(coarse.grid(), [&](int r, int c) {
+  at_each_node(coarse.grid(), [&](int r, int c) {
     const bool held = fine.inverse_mass.at(2 * r, 2 * c) == Real(0);
     coarse.inverse_mass.at(r, c) = held ? Real(0) : 1 / coarse.mass.at(r, c);
   });
@@ -44,7 +44,7 @@ Particles<Real> coarser(const Particles<Real>& fine, const ClothDescription& clo
 /// Puts the held nodes where they are in `from`.
 template <class Real>
 void take_held(const Particles<Real>& from, Particles<Real>& to) {
-  for_each_node(to.grid(), [&](int r, int c) {
+  at_each_node(to.grid(), [&](int r, int c) {
     if (to.inverse_mass.at(r, c) != Real(0)) return;
     to.position.x.at(r, c) = from.position.x.at(r, c);
     to.position.y.at(r, c) = from.position.y.at(r, c);
@@ -62,7 +62,7 @@ void move(Particles<Real>& particles, int r, int c, const Vec3& way) {
 template <class Real>
 void stir(Particles<Real>& sheet, double distance) {
   Random random(1);
-  for_each_node(sheet.grid(), [&](int r, int c) {
+  at_each_node(sheet.grid(), [&](int r, int c) {
     const double x = random.symmetric(), y = random.symmetric(), z = random.symmetric();
     if (sheet.inverse_mass.at(r, c) != Real(0)) move(sheet, r, c, distance * Vec3(x, y, z));
   });
@@ -91,7 +91,7 @@ std::optional<Vec3> free_centre(const Particles<Real>& particles) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
   bool held = false;
-  for_each_node(particles.grid(), [&](int r, int c) {
+  at_each_node(particles.grid(), [&](int r, int c) {
     sum += double(particles.mass.at(r, c)) * particles.position_at(r, c);
     mass += double(particles.mass.at(r, c));
     held = held || particles.inverse_mass.at(r, c) == Real(0);
@@ -113,7 +113,7 @@ void unfold(Particles<Real>& particles, const ClothDescription& cloth, int level
   unfold_from_below(particles, cloth, level);
   if (const auto centre = free_centre(before)) {
     const Vec3 back = *centre - *free_centre(particles);
-    for_each_node(particles.grid(), [&](int r, int c) { move(particles, r, c, back); });
+    at_each_node(particles.grid(), [&](int r, int c) { move(particles, r, c, back); });
   }
   particles.velocity = before.velocity;
   particles.acceleration = before.acceleration;

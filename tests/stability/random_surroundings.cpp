@@ -79,13 +79,19 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
     material.limit = {warp, weft, draw.between(0.05, 1), draw.decades(1, 50)};
     add(StrainLimitEffect{});
   }
-  if (draw.chance(0.5)) {
+  const bool layers = draw.chance(0.5);
+  if (layers) {
     const double thickness = std::clamp(cloth.size.minCoeff() * draw.decades(1e-3, 0.03), 1e-4, 1.0);
     add(ClothContactEffect{thickness, draw.between(0, 1)});
   }
   if (draw.chance(0.3)) {
     const double pressure = material.density * draw.decades(1, 100);  // up to ten times the weight
     add(InflationEffect{draw.chance(0.5) ? pressure : -pressure});
+  }
+  // A scene has one of the two.
+  if (!layers && draw.chance(0.5)) {
+    const double warp = draw.decades(1, 1e5);
+    add(TearingEffect{warp, warp * draw.decades(0.1, 10)});
   }
 }
 

@@ -9,7 +9,8 @@
 namespace weft::stability {
 
 /// Adds some of: planes, boxes, capsules and meshes that stand or go along paths; gusts and turbulence;
-/// strain damping, plate bending, a strain limit, contact of the cloth with itself, inflation.
+/// strain damping, plate bending, a strain limit, contact of the cloth with itself or tearing,
+/// inflation.
 void add_surroundings(Draw& draw, SimulationDescription& scene);
 
 /// A hand that takes hold of the cloth, goes and lets go. Drawn from the scene's seed; null in half of them.

@@ -17,7 +17,7 @@ constexpr float kSoft = 50, kStiff = 5000;
 /// and are then held this part of their own apart at least. A strip wrung by four turns had, without them,
 /// eight times its work put in by the net, and with them a fifteenth.
 constexpr int kMostRounds = 4;
-constexpr double kInSight = 1.5, kMeetingPart = 0.4;
+constexpr double kPairsInSight = 1.5, kMeetingPart = 0.4;
 /// By how much it changes in a step, and the parts of the gap above and below which it does.
 constexpr float kStiffer = 4, kSofter = 0.7F;
 constexpr double kKept = 0.8, kHardlyKept = 0.4;
@@ -221,7 +221,7 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
   for (std::size_t i = 0; i < own_.end.size(); ++i) own_.end[i] = at(position, i);
   met_.assign(own_.end.size(), 0);
   bool any = false;
-  for (const FeaturePair& features : search_.find(own_, kInSight * parameters_.net_gap)) {
+  for (const FeaturePair& features : search_.find(own_, kPairsInSight * parameters_.net_gap)) {
     const std::optional<LayerPair> pair = meeting(features);
     if (!pair) continue;
     Constraint c = constraint(*pair);

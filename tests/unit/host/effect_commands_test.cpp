@@ -1,43 +1,24 @@
 // effect.set: effects of a live scene taken away and brought back, and who is told.
 #include "choices.h"
 #include "cloth/state_hash.h"
-#include "fixtures.h"
-#include "host/live_scene.h"
+#include "live_scene_test.h"
 
 namespace weft::host::test {
 namespace {
 
 using protocol::EffectSet;
 
-class EffectCommands : public ::testing::Test {
+class EffectCommands : public LiveSceneTest {
  protected:
-  EffectCommands() : live(hung_cloth(), protocol::Limits{}) {
-    visit = reader.viewer->enter();
-    live.add_viewer(reader.viewer, visit);
-    live.add_viewer(other.viewer, other.viewer->enter());
-  }
-  json command(SceneCommand command) {
-    live.apply(reader.viewer, visit, {++id, std::move(command)});
-    drain();
-    return reader.reply(id);
-  }
+  EffectCommands() : LiveSceneTest(hung_cloth()) {}
   void steps(int count) {
     for (int i = 0; i < count; ++i) live.step();
-  }
-  void drain() {
-    reader.drain();
-    other.drain();
   }
   std::vector<std::string> studied() const {
     std::vector<std::string> names;
     for (const EffectDescription& effect : live.studied().effects) names.emplace_back(name_of(effect));
     return names;
   }
-
-  LiveScene live;
-  Reader reader, other;
-  std::uint64_t visit = 0;
-  std::int64_t id = 0;
 };
 
 using Names = std::vector<std::string>;

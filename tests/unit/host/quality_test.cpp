@@ -1,7 +1,6 @@
 // Quality in a live scene: what viewers are told and what is stepped, with the outcome of a study given.
 #include "choices.h"
-#include "fixtures.h"
-#include "host/live_scene.h"
+#include "live_scene_test.h"
 
 namespace weft::host::test {
 namespace {
@@ -12,19 +11,10 @@ scene::Scene kept_to(const scene::Quality& quality) {
   return scene;
 }
 
-class LiveQuality : public ::testing::Test {
+class LiveQuality : public LiveSceneTest {
  protected:
-  explicit LiveQuality(const scene::Quality& own = {}) : live(kept_to(own), protocol::Limits{}) {
-    visit = reader.viewer->enter();
-    live.add_viewer(reader.viewer, visit);
-    live.add_viewer(other.viewer, other.viewer->enter());
-  }
+  explicit LiveQuality(const scene::Quality& own = {}) : LiveSceneTest(kept_to(own)) {}
 
-  json command(SceneCommand command) {
-    live.apply(reader.viewer, visit, {++id, std::move(command)});
-    drain();
-    return reader.reply(id);
-  }
   /// `quality` of the stats, or null.
   json quality() {
     live.send_stats(1);
@@ -35,19 +25,10 @@ class LiveQuality : public ::testing::Test {
     live.take_study({three_levels(), ""});
     drain();
   }
-  void drain() {
-    reader.drain();
-    other.drain();
-  }
   int substeps() {
     live.step();
     return live.simulation().report(0).substeps;
   }
-
-  LiveScene live;
-  Reader reader, other;
-  std::uint64_t visit = 0;
-  std::int64_t id = 0;
 };
 
 class QualityOfAScene : public LiveQuality {
