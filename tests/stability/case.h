@@ -98,7 +98,7 @@ double mass_of(const ClothDescription& cloth);
 
 std::vector<Case> material_cases();  ///< stiffness, mass, step, load: S1 to S5, S13, S22
 std::vector<Case> shape_cases();     ///< hopeless shapes and shocks: S6, S7, S12, S18, S19, S21
-std::vector<Case> ball_cases();      ///< S8, S10, S20, S43
+std::vector<Case> ball_cases();      ///< S8, S10, S20, S44
 std::vector<Case> level_cases();     ///< S11
 std::vector<Case> long_cases();      ///< S14 to S16
 std::vector<Case> mesh_cases();      ///< S41

@@ -95,7 +95,7 @@ Case torn_through() {
     made.effects.push_back(TearingEffect{kStrength, kStrength});
     return made;
   };
-  Case made{"S43",
+  Case made{"S44",
             "ball of 0.1 m at 100 m/s through a sheet that bears 50 N/m, held by two edges: torn",
             {{4, scene}}};
   made.expect = [=](const Setup& setup) {

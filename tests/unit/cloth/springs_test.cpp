@@ -129,14 +129,14 @@ TEST(Springs, AFamilyWithoutStiffnessIsAbsent) {
 
 // --- Which springs a sheet has ---
 
-using Link = std::pair<int, int>;  // two nodes, numbered row by row, the lower one first
+using NodePair = std::pair<int, int>;  // two nodes, numbered row by row, the lower one first
 
 /// Moves one node at a time and sees whose force changes: exactly those it shares a spring with.
-std::set<Link> links_by_probing(const Springs<double>& springs, Particles<double> sheet) {
+std::set<NodePair> links_by_probing(const Springs<double>& springs, Particles<double> sheet) {
   const Grid grid = sheet.grid();
   VectorField<double> before(grid), after(grid);
   springs.add_forces(sheet.position, before);
-  std::set<Link> links;
+  std::set<NodePair> links;
   each_node(grid, [&](int r, int c) {
     const Vec3 home = sheet.position_at(r, c);
     set(sheet.position, r, c, home + Vec3(0.01, 0.02, 0.07));
@@ -171,7 +171,7 @@ TEST_P(SpringKinds, ExactlyTheSpringsOfFigure1Exist) {
   // A bent sheet, so that every spring is under load and none hides behind a zero force.
   each_node(sheet.grid(),
             [&](int r, int c) { sheet.position.z.at(r, c) = 0.1 * (r * r + 1.3 * c * c + r * c); });
-  std::set<Link> expected;
+  std::set<NodePair> expected;
   each_node(sheet.grid(), [&](int r, int c) {
     for (const auto& [dr, dc] : GetParam().offsets) {
       const int r2 = r + dr, c2 = c + dc;
