@@ -21,7 +21,7 @@ EFFECTS = {
     "damping": ({}, ["weft::Damping<"]),
     "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
     "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
-    "strain_damping": ({"time": 0.005}, [r"kernels::add_strain_damping.*clone"]),
+    "strain_damping": ({"time": 0.005}, [r"kernels::add_(growth|strain)_damping.*clone"]),
     "inflation": ({}, ["weft::Inflation<", r"kernels::add_pressure.*clone"]),
     "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
     "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet)::"]),
