@@ -8,10 +8,10 @@ namespace weft {
 namespace {
 
 /// The first takes out most of the energy, the second what the nodes pushed out of solids leave: of 8.9 J in
-/// a draped sheet of 2 m whose level falls from 5 to 4 they leave 1.3 and 0.8, two more 0.8; without the third
-/// changes at every step bring 0.15 J of motion into a drape of XPBD at 30 Hz, with it less than 0.11. What a
-/// solid lifts pulls up all that hangs on it: where a ball grows to twice its size, the drape is left with
-/// 19 m/s by two steps, 6 m/s by five, 6 m/s by ten (XPBD).
+/// a draped sheet of 2 m whose level falls from 5 to 4 they leave 1.3 and 0.8, two more 0.8; without the
+/// third changes at every step bring 0.15 J of motion into a drape of XPBD at 30 Hz, with it less than 0.11.
+/// What a solid lifts pulls up all that hangs on it: where a ball grows to twice its size, the drape is left
+/// with 19 m/s by two steps, 6 m/s by five, 6 m/s by ten (XPBD).
 int steps_from(Unsettled by) { return by == Unsettled::by_solid ? 5 : 3; }
 
 /// As they are when the step begins, at rest.
