@@ -100,7 +100,11 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
   return bound;
 }
 
-double depth(const Solid& solid, const Vec3& point) { return -solid.placed(1).surface(point).distance; }
+double depth(const Solid& solid, const Vec3& point) {
+  const PlacedShape placed = solid.placed(1);
+  // What is nearest to a point far from a mesh takes long to find.
+  return placed.may_touch(point, 0) ? -placed.surface(point).distance : 0;
+}
 
 std::vector<Vec3> positions(const Simulation<float>& simulation) {
   std::vector<Vec3> all;

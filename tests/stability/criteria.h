@@ -52,7 +52,7 @@ class Jitter {
   double largest_ = 0;
 };
 
-/// How deep a point is inside a solid at the step's end, m; negative outside.
+/// How deep a point is inside a solid at the step's end, m; 0 or less outside.
 double depth(const Solid& solid, const Vec3& point);
 
 /// Where the nodes are, row by row.
