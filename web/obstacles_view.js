@@ -4,7 +4,7 @@ import {
 import {creased} from './creased.js';
 
 const kColour = 0xb9b2a6;
-const kPlaneSide = 40;  // m; a plane has no end
+const kPlaneSide = 400;  // m, to where the camera sees no more; a plane has no end
 const kGap = 0.004;  // m; nodes lie on the surface, and would flicker through it
 
 /** What stands in the scene, or moves as the frames tell: planes, boxes, capsules, and meshes as soon as they have come. */
@@ -45,6 +45,12 @@ export class ObstaclesView {
       mesh.position.lerp(to.position, share);
       mesh.quaternion.slerp(to.quaternion, share);
     });
+  }
+
+  /** Height of the highest level plane that faces up, m, or null where there is none. */
+  floorHeight() {
+    const floors = this.meshes.filter((mesh) => mesh?.userData.home.shape === 'plane' && mesh.userData.home.normal[1] > 0.999);
+    return floors.length > 0 ? Math.max(...floors.map((mesh) => mesh.userData.home.position[1])) : null;
   }
 
   clear() {

@@ -166,7 +166,7 @@ export class Show {
     return {minLevel, maxLevel};
   }
 
-  /** Ground and light: set once a scene; the ground then gives way to a cloth that comes lower. */
+  /** Ground and light: set once a scene; the ground is the scene's floor, or gives way to a cloth that comes lower. */
   #arrange(first) {
     let low = Infinity, extent = 0;
     const views = [...this.cloths.values()].filter((view) => view.record);
@@ -178,6 +178,8 @@ export class Show {
     const {centre} = views[0];
     this.loupe.lookAt(centre, extent);
     if (!first) return this.stage.keepGroundBelow(low);
+    const floor = this.obstacles.floorHeight();
+    if (floor !== null) return this.stage.frame(centre, extent, floor, true);
     // Balls count only at the start: a thrown one falls for ever.
     for (const id of this.balls.ids) {
       const {position, radius} = this.balls.ball(id);

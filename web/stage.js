@@ -40,8 +40,8 @@ export class Stage {
     this.#resize();
   }
 
-  /** Puts light and shadow around a cloth, and the ground at `height`. */
-  frame(centre, extent, height) {
+  /** Puts light and shadow around a cloth, and the ground at `height`; where that is a `floor` of the scene, which takes the shadow itself, it stays there. */
+  frame(centre, extent, height, floor = false) {
     const [x, y, z] = centre;
     this.key.position.set(x + 1.6 * extent, y + 2.6 * extent, z + 2.2 * extent);
     this.key.target.position.set(x, y, z);
@@ -51,7 +51,8 @@ export class Stage {
     camera.updateProjectionMatrix();
     this.ground.position.set(x, height, z);
     this.grid.position.set(Math.round(x), height - 0.001, Math.round(z));
-    this.lowestGround = height - 3 * extent;
+    this.ground.visible = this.renderer.shadowMap.enabled && !floor;  // it is nothing but the shadow on it
+    this.lowestGround = floor ? Infinity : height - 3 * extent;
     this.changed = true;
   }
 
@@ -98,7 +99,6 @@ export class Stage {
     const plane = new PlaneGeometry(kGroundMetres, kGroundMetres).rotateX(-Math.PI / 2);
     this.ground = new Mesh(plane, new ShadowMaterial({transparent: true}));
     this.ground.receiveShadow = true;
-    this.ground.visible = this.renderer.shadowMap.enabled;  // it is nothing but the shadow on it
     this.grid = new Mesh(plane, new MeshBasicMaterial({transparent: true, depthWrite: false, toneMapped: false, alphaMap: fadeTexture()}));
     this.ground.renderOrder = 1;
     this.scene.add(this.grid, this.ground);

@@ -90,20 +90,6 @@ void check_pins(const SimulationDescription& simulation, Report& report) {
   }
 }
 
-/// Layers of cloth take every face for whole: a torn one would catch what falls through it.
-void check_tearing(const std::vector<EffectDescription>& effects, Report& report) {
-  const auto place_of = [&]<class Effect>(const Effect*) {
-    return std::find_if(effects.begin(), effects.end(),
-                        [](const auto& effect) { return std::holds_alternative<Effect>(effect); }) -
-           effects.begin();
-  };
-  const auto count = static_cast<std::ptrdiff_t>(effects.size());
-  const auto tearing = place_of(static_cast<const TearingEffect*>(nullptr));
-  if (tearing == count || place_of(static_cast<const ClothContactEffect*>(nullptr)) == count) return;
-  report.add(element_path("/effects", static_cast<std::size_t>(tearing)) + "/type",
-             "is \"tearing\", which cannot be listed together with \"cloth_contact\"");
-}
-
 bool reads_wind(const EffectDescription& effect) {
   return std::holds_alternative<PaperWindEffect>(effect) ||
          std::holds_alternative<AerodynamicsEffect>(effect);
@@ -132,7 +118,6 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
     });
     check_pins(simulation, report);
     simulation.effects = read_effects(object);
-    check_tearing(simulation.effects, report);
     if (const json* wind = object.find("wind")) {
       simulation.wind = read_wind(*wind, "/wind", report);
       if (std::none_of(simulation.effects.begin(), simulation.effects.end(), reads_wind)) {

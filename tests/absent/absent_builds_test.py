@@ -17,7 +17,7 @@ FRAMES = 3
 
 
 def scene(absent, tearing=False):
-    """A hung sheet with everything but what is absent; cloth_contact and tearing do not go together."""
+    """A hung sheet with everything but what is absent, and tearing instead of cloth_contact if asked for."""
     effects = [{"type": "gravity"}, {"type": "damping"}, {"type": "paper_wind"}, {"type": "aerodynamics"},
                {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"}, {"type": "inflation"},
                {"type": "tearing", "strength": 0.01} if tearing else {"type": "cloth_contact"}]

@@ -88,7 +88,6 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
     const double pressure = material.density * draw.decades(1, 100);  // up to ten times the weight
     add(InflationEffect{draw.chance(0.5) ? pressure : -pressure});
   }
-  // A scene has one of the two.
   if (!layers && draw.chance(0.5)) {
     const double warp = draw.decades(1, 1e5);
     add(TearingEffect{warp, warp * draw.decades(0.1, 10)});

@@ -1,6 +1,7 @@
 #pragma once
 #include "cloth/layers/layer_nodes.h"
 #include "cloth/layers/patch_tree.h"
+#include "cloth/tear/torn_links.h"
 
 namespace weft {
 
@@ -13,11 +14,15 @@ struct Crossing {
 
 /// Finds the features that come near each other on their ways from LayerNodes::start to ::end, of one cloth
 /// and of different ones. A cell is two triangles, as drawn: its diagonal is the one from its top left to its
-/// bottom right node. What shares a node is no pair. The order of the pairs follows from the grids alone.
+/// bottom right node. What shares a node is no pair. Of a torn sheet what is drawn has features: whole cells,
+/// their edges and nodes; where it is torn it has a border. The order of the pairs follows from the grids
+/// alone.
 class FeatureSearch {
  public:
-  /// Cloths of these grids.
+  /// Cloths of these grids, whole.
   void set_grids(const std::vector<Grid>& grids);
+  /// What is cut of a cloth, counted from 0, at its grid.
+  void set_torn(std::size_t sheet, const TornLinks& torn);
 
   /// All pairs that come as near as `margin`, m, and some more. Those of tangled nodes are left out. Valid
   /// until the next call.
@@ -36,7 +41,10 @@ class FeatureSearch {
     Sheet(const Grid& grid, std::uint32_t first_node) : tree(grid), first(first_node) {}
     PatchTree tree;
     std::uint32_t first;
+    std::vector<std::uint16_t> left;  ///< of each cell's own features, as bits; empty while it is whole
   };
+  /// Of a cell above or before another one.
+  static bool has_triangles(const Sheet& sheet, int row, int col);
   static Vec3 common_motion(const LayerNodes& nodes);
   /// Calls visit(sheet a, sheet b, cell pairs) for all that come near.
   template <class Visit>

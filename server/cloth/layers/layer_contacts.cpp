@@ -262,7 +262,7 @@ std::optional<LayerPair> LayerContacts<Real>::meeting(const FeaturePair& feature
   if (features.kind == FeaturePair::Kind::edge_edge) {
     pair.gap *= kEdgePart;
   } else {
-    pair.side = side_of_sheet(grid_, own_.start.data(), features.node[0], pair.normal);
+    pair.side = side_of_sheet(grid_, own_.start.data(), features.node[0], pair.normal, torn_.get());
   }
   pair.features = features;
   for (std::uint32_t& node : pair.features.node) node += first_;

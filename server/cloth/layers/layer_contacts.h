@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "cloth/contact/contact.h"
 #include "cloth/layers/feature_search.h"
 #include "cloth/solver/node_couplings.h"
@@ -50,6 +52,11 @@ class LayerContacts {
 
   /// The pairs of the step that have nodes of this cloth; forces are remembered by node.
   void set_pairs(std::vector<LayerPair> pairs) { pairs_ = std::move(pairs); }
+  /// What is cut of this cloth.
+  void set_torn(const std::shared_ptr<const TornLinks>& torn) {
+    torn_ = torn;
+    search_.set_torn(0, *torn);
+  }
   /// Nothing for a step to do.
   bool empty() const { return pairs_.empty() && struck_.empty(); }
 
@@ -132,7 +139,8 @@ class LayerContacts {
 
   const LayerNodes& nodes_;
   Grid grid_;
-  std::uint32_t first_, end_;  ///< of this cloth's nodes
+  std::shared_ptr<const TornLinks> torn_;  ///< nullptr while the cloth is whole
+  std::uint32_t first_, end_;              ///< of this cloth's nodes
   LayerParameters parameters_;
   std::vector<LayerPair> pairs_;
   std::vector<Constraint> constraints_;

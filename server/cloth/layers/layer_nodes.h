@@ -1,9 +1,9 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
 #include "cloth/grid.h"
 #include "cloth/layers/features.h"
+#include "cloth/tear/torn_links.h"
 
 namespace weft {
 
@@ -26,12 +26,16 @@ inline FourPoints points_of(const FeaturePair& pair, const std::vector<Vec3>& of
 }
 
 /// The side of a sheet, 0 or 1, on which `direction` leads away from its node `i`; `position` are its nodes'.
-inline int side_of_sheet(const Grid& grid, const Vec3* position, std::size_t i, const Vec3& direction) {
+/// `torn` is what is cut of it, or nullptr: nodes beyond say nothing.
+inline int side_of_sheet(const Grid& grid, const Vec3* position, std::size_t i, const Vec3& direction,
+                         const TornLinks* torn) {
   const int r = static_cast<int>(i) / grid.stride, c = static_cast<int>(i) % grid.stride;
-  const auto x = [&](int row, int col) -> const Vec3& {
-    return position[grid.index(std::clamp(row, 0, grid.rows - 1), std::clamp(col, 0, grid.cols - 1))];
+  const auto x = [&](bool is_there, const Link& link, int row, int col) -> const Vec3& {
+    return is_there && !(torn && torn->torn(link)) ? position[grid.index(row, col)] : position[i];
   };
-  return (x(r + 1, c) - x(r - 1, c)).cross(x(r, c + 1) - x(r, c - 1)).dot(direction) > 0 ? 1 : 0;
+  const Vec3 along_v = x(r + 1 < grid.rows, {r, c, false}, r + 1, c) - x(r > 0, {r - 1, c, false}, r - 1, c),
+             along_u = x(c + 1 < grid.cols, {r, c, true}, r, c + 1) - x(c > 0, {r, c - 1, true}, r, c - 1);
+  return along_v.cross(along_u).dot(direction) > 0 ? 1 : 0;
 }
 
 /// Crossing edges are held apart by this part of the thickness: between layers that lie flat on each other

@@ -36,6 +36,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   if (grids == grids_) return;
   grids_ = grids;
   search_.set_grids(grids);
+  torn_.assign(cloths.size(), nullptr);
   nodes_ = {};
   gaps_.clear();
   contacts_.clear();
@@ -60,6 +61,17 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   }
   may_be_tangled_ = true;
   found_ = false;
+}
+
+template <class Real>
+void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths) {
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const std::shared_ptr<const TornLinks>& torn = cloths[k].springs().torn();
+    if (torn == torn_[k]) continue;
+    torn_[k] = torn;
+    search_.set_torn(k, *torn);
+    contacts_[k]->set_torn(torn);
+  }
 }
 
 template <class Real>
@@ -88,6 +100,7 @@ void Layers<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
 template <class Real>
 void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   lay_out(cloths);
+  take_over_tears(cloths);
   // While all stand still the pairs of the last step are right, should one wake in this one.
   if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   const bool anew = !found_;
@@ -188,7 +201,7 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
       continue;
     }
     pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
-                              features.node[0] - nodes_.first[one], pair.normal);
+                              features.node[0] - nodes_.first[one], pair.normal, torn_[one].get());
     int& slot = nearest[2 * std::size_t{features.node[0]} + static_cast<std::size_t>(pair.side)];
     if (slot < 0) {
       slot = static_cast<int>(found.size());

@@ -18,7 +18,7 @@ namespace weft {
 ///
 /// Cloth may begin entangled, and split and merge may make it so. Nodes of triangles that an edge passes
 /// through are left alone, by contact and net, and led out of each other (untangling_moves) until none does;
-/// what is not entangled does not become so.
+/// what is not entangled does not become so. Torn cells are not there (FeatureSearch).
 template <class Real>
 class Layers {
  public:
@@ -34,6 +34,8 @@ class Layers {
 
  private:
   void lay_out(std::vector<Cloth<Real>>& cloths);
+  /// Takes over what was torn since the last step.
+  void take_over_tears(const std::vector<Cloth<Real>>& cloths);
   void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
   void read_masses(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
@@ -42,7 +44,8 @@ class Layers {
 
   ClothContactEffect parameters_;
   std::vector<Grid> grids_;
-  std::vector<double> gaps_;  ///< of each cloth, m
+  std::vector<double> gaps_;                            ///< of each cloth, m
+  std::vector<std::shared_ptr<const TornLinks>> torn_;  ///< of each cloth; nullptr while it is whole
   LayerNodes nodes_;
   FeatureSearch search_;
   CollisionNet net_{0};

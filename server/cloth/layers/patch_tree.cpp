@@ -9,6 +9,8 @@ namespace {
 
 /// Sine and cosine of the angle between cones.
 constexpr double kSine = 0.5, kCosine = 0.8660254037844386;
+/// Of edges that may lie in any direction.
+constexpr Bounds kAnyDirection{{-1e100, -1e100, -1e100}, {1e100, 1e100, 1e100}};
 /// Patches in the rectangle around two that are looked at together at most.
 constexpr int kMostPatches = 9;
 
@@ -55,6 +57,7 @@ void PatchTree::refit(const Vec3* start, const Vec3* end) {
       }
     }
   }
+  for (const std::uint32_t cell : torn_) cells.patches[cell].along_u = kAnyDirection;
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     Level& coarse = levels_[level];
     const Level& fine = levels_[level - 1];

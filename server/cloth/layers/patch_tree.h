@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cloth/grid.h"
@@ -51,6 +52,8 @@ class PatchTree {
   explicit PatchTree(const Grid& grid);
 
   const Grid& grid() const { return grid_; }
+  /// Cells, each as row * (columns of cells) + column, across which nothing is one-to-one: torn ones.
+  void set_torn(std::vector<std::uint32_t> cells) { torn_ = std::move(cells); }
   /// The nodes' ways, straight from `start` to `end`; both as many as grid.size().
   void refit(const Vec3* start, const Vec3* end);
   /// Of the whole sheet.
@@ -84,6 +87,7 @@ class PatchTree {
 
   Grid grid_;
   std::vector<Level> levels_;  ///< cells first
+  std::vector<std::uint32_t> torn_;
   Bounds bounds_;
 };
 

@@ -56,7 +56,7 @@ TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   // Relations between fields, and what is no longer there once JSON has been read.
   const std::set<std::string> beyond_a_schema = {
       "ball_path_order", "duplicate_keys",    "effect_twice",    "level_policy_order",
-      "nodes_count",     "pin_span_descends", "surfaces_values", "tearing_contact",
+      "nodes_count",     "pin_span_descends", "surfaces_values",
       "too_many_nodes",  "wind_unread",       "zero_direction",
   };
   int refused = 0;
