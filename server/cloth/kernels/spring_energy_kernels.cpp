@@ -1,6 +1,8 @@
 #include "cloth/kernels/spring_energy_kernels.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "cloth/kernels/link_rows.h"
@@ -18,6 +20,7 @@ template <class Real>
 struct Lanes {
   alignas(64) Real sum[kLinkGroup]{};
   alignas(64) Real magnitude[kLinkGroup]{};
+  alignas(64) Real largest[kLinkGroup]{};
 
   [[gnu::always_inline]] void flush(SpringModelError& error) {
     for (int lane = 0; lane < kLinkGroup; ++lane) {
@@ -25,6 +28,9 @@ struct Lanes {
       error.magnitude += static_cast<double>(magnitude[lane]);
       sum[lane] = magnitude[lane] = Real(0);
     }
+  }
+  [[gnu::always_inline]] void find_largest(SpringModelError& error) const {
+    error.largest = static_cast<double>(*std::max_element(std::begin(largest), std::end(largest)));
   }
 };
 
@@ -71,6 +77,7 @@ template <class Real, bool kLimited>
       const Real error = share * stiffness[i] / 2 * twice;
       lanes.sum[lane] += error;
       lanes.magnitude[lane] += std::abs(error);
+      lanes.largest[lane] = std::max(lanes.largest[lane], std::abs(error));
     }
   }
 }
@@ -109,6 +116,7 @@ template <class Real, bool kLimited, bool kTorn = false>
     }
     lanes.flush(error);
   }
+  lanes.find_largest(error);
   return error;
 }
 

@@ -7,6 +7,7 @@ namespace weft::kernels {
 struct SpringModelError {
   double sum = 0;        ///< energy less promise: above 0, the springs resist more than was reckoned
   double magnitude = 0;  ///< the same without its sign, added up spring by spring
+  double largest = 0;    ///< of that, in one spring
 };
 
 /// Each spring's energy 1/2 k (l - l0)^2 at position + change, less its second-order model at `position` with
