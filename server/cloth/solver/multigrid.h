@@ -41,8 +41,8 @@ struct GridLevel {
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
 /// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
-/// inertia outweighs it at every node. Bodies may hang on the nodes, and nodes on one another: that is part
-/// of A, but not of the preconditioner.
+/// inertia outweighs it at every node. Bodies may hang on the nodes: that is part of A, but not of the
+/// preconditioner. Nodes may hang on one another: that is part of the cycle on the finest grid alone.
 template <class Real>
 class Multigrid {
  public:
