@@ -81,7 +81,7 @@ TEST(MassProperties, APlaneHasNone) {
 
 // --- One substep's hits ---
 
-constexpr double kMasses[] = {1e-3, 0.03, 1, 30, 1e3};  // kg
+constexpr double kBoxMasses[] = {1e-3, 0.03, 1, 30, 1e3};  // kg
 
 /// A box of 1 x 2 x 0.5 m whose upper face is at z = 0, turned about z.
 Solid box_of(double mass, const Vec3& velocity, const Vec3& spin) {
@@ -100,7 +100,7 @@ Solid box_of(double mass, const Vec3& velocity, const Vec3& spin) {
 
 TEST(YieldingBox, AHitAsideLeavesTheTwoWithOneVelocityThere) {
   // J = u / (1/m + 1/M + (r x n) . I^-1 (r x n)) (Baraff 2001, Eq. 8-18 with no bounce), m = 1 kg, u = 6 m/s.
-  for (const double mass : kMasses) {
+  for (const double mass : kBoxMasses) {
     Particles<double> sheet = test::flat_sheet<double>(9, 9, {2, 2});
     const Vec3 place = sheet.position_at(4, 5);  // 0.25 m aside
     each_node(sheet.grid(), [&](int r, int c) { sheet.inverse_mass.at(r, c) = r == 4 && c == 5 ? 1 : 0; });
@@ -121,7 +121,7 @@ TEST(YieldingBox, AHitAsideLeavesTheTwoWithOneVelocityThere) {
 
 TEST(YieldingBox, AHundredHitsKeepBothMomentaAndAddNoEnergy) {
   // Where the nodes were when they were hit: leading them out of the box changes no velocity.
-  for (const double mass : kMasses) {
+  for (const double mass : kBoxMasses) {
     for (const double friction : {0.0, 0.3, 1e6}) {
       Particles<double> sheet = test::flat_sheet<double>(65, 65, {2, 2});
       test::share_mass(sheet, 1, Discretization::continuum);
@@ -218,6 +218,22 @@ TEST(DynamicBox, ClothAndBoxTogetherKeepTheirMomenta) {
   EXPECT_LT(last * 2, 0.02);
 }
 
+TEST(DynamicBox, AMeshOfItsFacesIsHitAsItIs) {
+  // Rays and nearest points of the two differ in the last digits only.
+  SimulationDescription scene = hit_sheet(0.2, SymplecticEulerDescription{40});
+  Simulation<double> boxes(scene);
+  scene.obstacles[0].shape =
+      MeshDescription{std::make_shared<const TriangleMesh>(test::box_mesh({0.3, 0.2, 0.15}))};
+  Simulation<double> meshes(scene);
+  run(boxes, 10);
+  run(meshes, 10);
+  const Obstacle &box = boxes.colliders().obstacles()[0], &mesh = meshes.colliders().obstacles()[0];
+  EXPECT_GT(boxes.report(0).nodes_in_contact, 0);
+  EXPECT_LT((box.body->velocity() - mesh.body->velocity()).norm(), 1e-6);
+  EXPECT_LT((box.body->angular_momentum() - mesh.body->angular_momentum()).norm(), 1e-6);
+  EXPECT_LT((momentum(meshes) - Vec3(0, 0, -0.4)).norm(), 1e-12);
+}
+
 TEST(DynamicBox, ThreeSheetsThatShareABoxKeepTheMomentumToo) {
   SimulationDescription scene = hit_sheet(0.2, SymplecticEulerDescription{});
   for (const double behind : {0.0005, 0.001}) {
@@ -235,13 +251,13 @@ TEST(DynamicBox, ThreeSheetsThatShareABoxKeepTheMomentumToo) {
   EXPECT_LT((momentum(simulation) - before).norm(), 1e-12);
 }
 
-struct Fall {
+struct Collision {
   const char* name;
   IntegratorDescription integrator;
   double mass;  ///< kg; the sheet's is 0.4
 };
-std::ostream& operator<<(std::ostream& out, const Fall& fall) { return out << fall.name; }
-class SheetAndBox : public ::testing::TestWithParam<Fall> {};
+std::ostream& operator<<(std::ostream& out, const Collision& collision) { return out << collision.name; }
+class SheetAndBox : public ::testing::TestWithParam<Collision> {};
 
 TEST_P(SheetAndBox, GainNoEnergyWhenTheyHit) {
   Simulation<double> simulation(hit_sheet(GetParam().mass, GetParam().integrator));
@@ -265,7 +281,7 @@ TEST_P(SheetAndBox, GainNoEnergyWhenTheyHit) {
   EXPECT_NE(box.body->velocity(), flew);
 }
 
-const Fall kFalls[] = {
+const Collision kCollisions[] = {
     {"backward_euler_light", BackwardEulerDescription{}, 0.4e-3},
     {"backward_euler_even", BackwardEulerDescription{}, 0.4},
     {"backward_euler_heavy", BackwardEulerDescription{}, 400},
@@ -276,7 +292,7 @@ const Fall kFalls[] = {
     {"xpbd_even", XpbdDescription{}, 0.4},
     {"xpbd_heavy", XpbdDescription{}, 400},
 };
-INSTANTIATE_TEST_SUITE_P(Falls, SheetAndBox, ::testing::ValuesIn(kFalls),
+INSTANTIATE_TEST_SUITE_P(Collisions, SheetAndBox, ::testing::ValuesIn(kCollisions),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 // --- Commands, resets, faults ---
