@@ -72,6 +72,11 @@ struct ObstacleMove {
   Vector position{};
   std::optional<Turn> quaternion;  ///< unit length after parsing; without one it keeps its turn
 };
+struct ObstacleThrow {
+  std::uint32_t obstacle = 0;  ///< its place in `scene`
+  Vector velocity{};
+  Vector spin{};
+};
 struct ClothGrab {
   std::uint32_t cloth = 0;
   double u = 0, v = 0;
@@ -124,8 +129,8 @@ struct Ping {
 
 using Command =
     std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
-                 ObstacleMove, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin, EffectSet, WindSet,
-                 WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+                 ObstacleMove, ObstacleThrow, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
+                 EffectSet, WindSet, WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -43,6 +43,10 @@ Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
   solid.rotation = obstacle.pose.orientation.toRotationMatrix();
   if (obstacle.mobile) take(obstacle, along_path(obstacle.path, 0, obstacle.loops));
   solid.start = solid.position = obstacle.pose.position;
+  if (description.body) {
+    obstacle.body.emplace(*description.body, shape, obstacle.pose);
+    obstacle.mobile = obstacle.mobile || obstacle.flies();
+  }
   return obstacle;
 }
 
@@ -69,6 +73,8 @@ void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
 
 /// Along its path or to its target, in a step from `time` on.
 void advance(Obstacle& obstacle, double time, double dt) {
+  obstacle.solid.inverse_mass = 0;
+  obstacle.solid.inverse_inertia.setZero();
   if (obstacle.target) {
     go(obstacle, obstacle.pose, *obstacle.target, dt);
     obstacle.target.reset();
@@ -160,6 +166,17 @@ bool Colliders::move_obstacle(std::size_t index, const Pose& target) {
   obstacle.mobile = true;
   obstacle.path.clear();
   obstacle.target = {target.position, target.orientation.normalized()};
+  if (obstacle.body) obstacle.body->hold();
+  return true;
+}
+
+bool Colliders::throw_obstacle(std::size_t index, const Vec3& velocity, const Vec3& spin) {
+  if (index >= obstacles_.size() || !obstacles_[index].body) return false;
+  Obstacle& obstacle = obstacles_[index];
+  obstacle.mobile = true;
+  obstacle.path.clear();
+  obstacle.target.reset();
+  obstacle.body->fling(velocity, spin, obstacle.pose.orientation);
   return true;
 }
 
@@ -195,12 +212,22 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
   solids_.clear();
   for (const Ball& ball : balls_) solids_.push_back(ball.solid());
   for (Obstacle& obstacle : obstacles_) {
-    if (obstacle.mobile) advance(obstacle, time, dt);
+    if (obstacle.flies()) {
+      obstacle.body->fly(obstacle.pose, obstacle.solid, gravity, dt);
+      stop_bad_body(obstacle);
+    } else if (obstacle.mobile) {
+      advance(obstacle, time, dt);
+    }
     solids_.push_back(obstacle.solid);
   }
 }
 
-void Colliders::share(BallId id, int cloths) {
+void Colliders::share(ColliderId id, int cloths) {
+  if (id >= kFirstObstacle) {
+    const std::size_t obstacle = id - kFirstObstacle;
+    obstacles_[obstacle].body->share(cloths, solids_[balls_.size() + obstacle]);
+    return;
+  }
   const auto index = static_cast<std::size_t>(find_ball(balls_, id) - balls_.begin());
   balls_[index].sharing = cloths;
   solids_[index].inverse_mass = cloths / balls_[index].mass;
@@ -210,6 +237,9 @@ void Colliders::push(const std::vector<Solid>& left) {
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     balls_[i].pushed += (left[i].position - solids_[i].position) / balls_[i].sharing;
     balls_[i].sped_up += (left[i].velocity - solids_[i].velocity) / balls_[i].sharing;
+  }
+  for (std::size_t i = balls_.size(); i < solids_.size(); ++i) {
+    if (solids_[i].yields()) obstacles_[i - balls_.size()].body->push(solids_[i], left[i]);
   }
 }
 
@@ -223,6 +253,18 @@ void Colliders::end_step() {
     solids_[i].position = ball.position;
   }
   stop_bad_balls();
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    Obstacle& obstacle = obstacles_[i];
+    if (!obstacle.flies()) continue;
+    obstacle.body->take_up(obstacle.pose, solids_[balls_.size() + i]);
+    stop_bad_body(obstacle);
+  }
+}
+
+void Colliders::stop_bad_body(Obstacle& obstacle) {
+  if (obstacle.body->sound(obstacle.pose, kFarthest)) return;
+  obstacle.body->stop(obstacle.pose, obstacle.solid);
+  stopped_.push_back(obstacle.solid.id);
 }
 
 void Colliders::stop_bad_balls() {

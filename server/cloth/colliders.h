@@ -7,6 +7,7 @@
 
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
+#include "cloth/rigid_body.h"
 
 namespace weft {
 
@@ -32,15 +33,19 @@ struct Ball {
   Solid solid() const;
 };
 
-/// An obstacle as it is now. During a step it goes and turns evenly from pose to pose.
+/// An obstacle as it is now. During a step it goes and turns evenly from pose to pose, but for what cloths
+/// give a dynamic body.
 struct Obstacle {
   Solid solid;
   std::shared_ptr<const TriangleMesh> surface;  ///< that the solid's shape is within, if it is a mesh
   Pose pose;            ///< at the end of the step; a plane's orientation says nothing
-  bool mobile = false;  ///< follows a path, or was moved since the start
+  bool mobile = false;  ///< follows a path, flies, or was moved or thrown since the start
   std::vector<PoseWaypoint> path;
   bool loops = false;          ///< the path
   std::optional<Pose> target;  ///< where it was told to go, until it is there
+  std::optional<RigidBody> body;
+
+  bool flies() const { return body && body->dynamic(); }
 };
 
 /// The scene's balls and obstacles. Ids of balls count up from 1 and are never used again until a reset.
@@ -63,28 +68,30 @@ class Colliders {
   /// The ball becomes dynamic and flies off. False if there is no such ball.
   bool throw_ball(BallId id, const Vec3& velocity);
   bool remove(BallId id);
-  /// The obstacle, by its place in obstacles(), leaves its path, takes the pose within the next step and
-  /// stays there. False if there is no such obstacle.
+  /// The obstacle, by its place in obstacles(), leaves its path, or flies no more, takes the pose within the
+  /// next step and stays there. False if there is no such obstacle.
   bool move_obstacle(std::size_t index, const Pose& target);
+  /// The obstacle leaves its path and flies off. False if there is no such obstacle, or it is no body.
+  bool throw_obstacle(std::size_t index, const Vec3& velocity, const Vec3& spin);
 
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
-  /// velocity; and every obstacle along its path or to its target.
+  /// velocity; and every obstacle along its path, to its target, or as it flies.
   void begin_step(double time, double dt, const Vec3& gravity);
-  /// So many cloths, at least 1, will touch the ball in the step that has begun. They are stepped side by
-  /// side and know nothing of each other, and would all stop the same ball, and so throw it back: it is for
-  /// each of them a ball of its share of the mass, and at the end the mean of these, which has their momentum
-  /// and at most their kinetic energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free
-  /// Parallel Rigid Body Simulation, 2012).
-  void share(BallId id, int cloths);
+  /// So many cloths, at least 1, will touch the ball, or the body, in the step that has begun. They are
+  /// stepped side by side and know nothing of each other, and would all stop the same ball, and so throw it
+  /// back: it is for each of them a ball of its share of the mass, and at the end the mean of these, which
+  /// has their momentum and at most their kinetic energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for
+  /// Jitter-Free Parallel Rigid Body Simulation, 2012).
+  void share(ColliderId id, int cloths);
   /// How one cloth leaves solids() at the step's end; the order of the calls decides the last bits.
   void push(const std::vector<Solid>& left);
-  /// Dynamic balls take up what the cloths gave them.
+  /// Dynamic balls and bodies take up what the cloths gave them.
   void end_step();
-  /// A ball whose place or velocity is beyond this, m or m/s, or not a number, is put back to its last good
-  /// place, at rest and without its path. Single precision, which frames have, still holds it.
+  /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
+  /// last good place, at rest and without its path. Single precision, which frames have, still holds it.
   static constexpr double kFarthest = 1e30;
-  /// The balls put back since the last call.
-  std::vector<BallId> take_stopped() { return std::exchange(stopped_, {}); }
+  /// The balls and bodies put back since the last call.
+  std::vector<ColliderId> take_stopped() { return std::exchange(stopped_, {}); }
 
  private:
   /// Where a ball was told to go. Kept for one step after it got there, to bring it to rest.
@@ -95,12 +102,13 @@ class Colliders {
   };
   void forget_target(BallId id);
   void stop_bad_balls();
+  void stop_bad_body(Obstacle& obstacle);
 
   std::vector<Ball> balls_;
   std::vector<Obstacle> obstacles_;
   std::vector<Solid> solids_;
   std::vector<Target> targets_;
-  std::vector<BallId> stopped_;
+  std::vector<ColliderId> stopped_;
   BallId next_id_ = 1;
 };
 

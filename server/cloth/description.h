@@ -190,7 +190,15 @@ struct MeshDescription {
   static constexpr const char* kName = "mesh";
   static constexpr const char* kConvexName = "convex";
 };
-/// Something that stands where it is or goes where it is told (path, commands); the cloth yields.
+/// What an obstacle needs to fly, of uniform density.
+struct BodyDescription {
+  double mass = 1.0;             ///< kg, > 0
+  bool dynamic = true;           ///< flies from the start; else it is told where to go until it is thrown
+  Vec3 velocity{0.0, 0.0, 0.0};  ///< of its centre, at the start if dynamic, m/s
+  Vec3 spin{0.0, 0.0, 0.0};      ///< the same, rad/s, in the world
+};
+/// Something that stands where it is or goes where it is told (path, commands), and the cloth yields; or, as
+/// a body, flies under the scene's gravity and is slowed and turned by the cloth.
 struct ObstacleDescription {
   std::variant<PlaneDescription, BoxDescription, CapsuleDescription, MeshDescription> shape;
   Vec3 position{0.0, 0.0, 0.0};
@@ -198,6 +206,8 @@ struct ObstacleDescription {
   /// Overrides position and orientation. Planes keep their normal.
   std::vector<PoseWaypoint> path = {};
   bool loop = false;  ///< as a pin's
+  /// No planes, and shapes only whose origin is their centre of mass. Dynamic ones have no path.
+  std::optional<BodyDescription> body = {};
 };
 
 // --- How it is stepped ---

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "cloth/contact/solid.h"
+
 namespace weft {
 namespace {
 
@@ -58,7 +60,10 @@ std::string describe(const GuardEvent& event, const std::string& cloth) {
     case GuardEvent::Action::ball_stopped:
       break;
   }
-  return "ball " + std::to_string(event.ball) + gave + ": put back to its last good place, at rest";
+  const std::string name = event.ball < kFirstObstacle
+                               ? "ball " + std::to_string(event.ball)
+                               : "obstacle " + std::to_string(event.ball - kFirstObstacle);
+  return name + gave + ": put back to its last good place, at rest";
 }
 
 }  // namespace weft

@@ -25,7 +25,7 @@ struct GuardEvent {
     redone,       ///< the step was taken back and made again by `rung`, which is kept for a while
     frozen,       ///< nothing helped: the cloth stands still at its last good state, and is tried again
     thawed,       ///< a frozen cloth moves again, by `rung`
-    ball_stopped  ///< a ball was put back to its last good place, at rest
+    ball_stopped  ///< a ball, or a body, was put back to its last good place, at rest
   };
   Action action = Action::redone;
   Fault fault = Fault::none;  ///< none if thawed
@@ -33,7 +33,7 @@ struct GuardEvent {
   double limit = 0;           ///< and what is allowed
   Rung rung = Rung::own;      ///< redone and thawed
   std::size_t cloth = 0;      ///< index
-  std::uint32_t ball = 0;     ///< ball_stopped: its id, in place of a cloth
+  std::uint32_t ball = 0;     ///< ball_stopped: its ColliderId, in place of a cloth
   std::uint64_t step = 0;     ///< step_count() of the simulation after it
 };
 

@@ -171,7 +171,7 @@ void Simulation<Real>::collect_guard_events() {
       guard_events_.push_back(event);
     }
   }
-  for (const BallId ball : colliders_.take_stopped()) {
+  for (const ColliderId ball : colliders_.take_stopped()) {
     GuardEvent event;
     event.action = GuardEvent::Action::ball_stopped;
     event.fault = Fault::not_finite;

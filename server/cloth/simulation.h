@@ -80,6 +80,9 @@ class Simulation {
   bool move_obstacle(std::size_t index, const Pose& target) {
     return colliders_.move_obstacle(index, target);
   }
+  bool throw_obstacle(std::size_t index, const Vec3& velocity, const Vec3& spin) {
+    return colliders_.throw_obstacle(index, velocity, spin);
+  }
 
   /// A hand takes hold of a cloth at (u, v), where it is now unless the hand is elsewhere, and pulls with at
   /// most `max_force`, N.

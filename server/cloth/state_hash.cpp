@@ -26,6 +26,7 @@ class Hash {
     }
   }
   void add(const Vec3& vector) { add(vector.data(), 3 * sizeof(double)); }
+  void add(const Eigen::Vector4d& vector) { add(vector.data(), 4 * sizeof(double)); }
   std::uint64_t value() const { return value_; }
 
  private:
@@ -56,6 +57,14 @@ std::uint64_t state_hash(const Simulation<Real>& simulation) {
     hash.add(ball.id);
     hash.add(ball.position);
     hash.add(ball.velocity);
+  }
+  for (const Obstacle& obstacle : simulation.colliders().obstacles()) {
+    if (!obstacle.flies()) continue;  // where the others are follows from the commands
+    hash.add(obstacle.solid.id);
+    hash.add(obstacle.pose.position);
+    hash.add(Eigen::Vector4d(obstacle.pose.orientation.coeffs()));
+    hash.add(obstacle.body->velocity());
+    hash.add(obstacle.body->angular_momentum());
   }
   return hash.value();
 }

@@ -183,6 +183,12 @@ void LiveScene::remove_lost_balls() {
     tell_event("ball.remove", simulation_.step_count(),
                {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
   }
+  const auto& obstacles = simulation_.colliders().obstacles();
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Pose& pose = obstacles[i].pose;
+    const bool flies = obstacles[i].flies();
+    if (flies && pose.position.cwiseAbs().maxCoeff() > kBallRange) simulation_.move_obstacle(i, pose);
+  }
 }
 
 void LiveScene::find_bounds() {

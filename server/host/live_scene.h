@@ -21,10 +21,10 @@ namespace weft::host {
 /// The commands that are the scene's to carry out; the rest is answered by Connection.
 using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
-                 protocol::BallRemove, protocol::ObstacleMove, protocol::ClothGrab, protocol::GrabMove,
-                 protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet,
-                 protocol::WindSet, protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause,
-                 protocol::Resume, protocol::Reset, protocol::Step>;
+                 protocol::BallRemove, protocol::ObstacleMove, protocol::ObstacleThrow, protocol::ClothGrab,
+                 protocol::GrabMove, protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin,
+                 protocol::EffectSet, protocol::WindSet, protocol::WindZoneSet, protocol::Quality,
+                 protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -33,7 +33,8 @@ struct SceneRequest {
 
 class LiveScene {
  public:
-  /// A dynamic ball farther from the origin than this along an axis has left and is removed, m.
+  /// A dynamic ball farther from the origin than this along an axis has left and is removed, a dynamic
+  /// obstacle stays where it is, m.
   static constexpr double kBallRange = 1000.0;
   /// Of a cloth, the scene's own and those that viewers set.
   static constexpr std::size_t kMaxPins = 256;
@@ -90,6 +91,7 @@ class LiveScene {
   Outcome carry_out(const protocol::BallThrow& thrown, Seat& seat);
   Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
   Outcome carry_out(const protocol::ObstacleMove& move, Seat& seat);
+  Outcome carry_out(const protocol::ObstacleThrow& thrown, Seat& seat);
   Outcome carry_out(const protocol::ClothGrab& grab, Seat& seat);
   Outcome carry_out(const protocol::GrabMove& move, Seat& seat);
   Outcome carry_out(const protocol::GrabRelease& release, Seat& seat);

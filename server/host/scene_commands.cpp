@@ -21,6 +21,12 @@ Error no_such_ball(BallId id) {
   return refused("not_found", "/ball", "/ball is " + std::to_string(id) + "; the scene has no such ball");
 }
 
+Error no_such_obstacle(std::uint32_t obstacle, std::size_t obstacles) {
+  return refused("not_found", "/obstacle",
+                 "/obstacle is " + std::to_string(obstacle) + "; the scene has " + std::to_string(obstacles) +
+                     " obstacles, counted from 0");
+}
+
 Error no_such_grab(GrabId id) {
   return refused("not_found", "/grab",
                  "/grab is " + std::to_string(id) + "; this viewer holds nothing by that id");
@@ -108,17 +114,23 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat&) {
   const auto& obstacles = simulation_.colliders().obstacles();
-  if (move.obstacle >= obstacles.size()) {
-    return refused("not_found", "/obstacle",
-                   "/obstacle is " + std::to_string(move.obstacle) + "; the scene has " +
-                       std::to_string(obstacles.size()) + " obstacles, counted from 0");
-  }
+  if (move.obstacle >= obstacles.size()) return no_such_obstacle(move.obstacle, obstacles.size());
   Pose pose{to_vec3(move.position), obstacles[move.obstacle].pose.orientation};
   if (move.quaternion) {
     const protocol::Turn& q = *move.quaternion;
     pose.orientation = Quaternion(q[0], q[1], q[2], q[3]);
   }
   simulation_.move_obstacle(move.obstacle, pose);
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, Seat&) {
+  const std::size_t obstacles = simulation_.colliders().obstacles().size();
+  if (thrown.obstacle >= obstacles) return no_such_obstacle(thrown.obstacle, obstacles);
+  if (!simulation_.throw_obstacle(thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin))) {
+    return refused("unavailable", "/obstacle",
+                   "/obstacle is " + std::to_string(thrown.obstacle) + "; it has no mass");
+  }
   return json::object();
 }
 

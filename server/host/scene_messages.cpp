@@ -59,6 +59,7 @@ json obstacle_json(const ObstacleDescription& obstacle) {
     message["triangles"] = mesh.surface->list().triangles.size();
     message["quaternion"] = quaternion_json(mesh.orientation);
   }
+  if (obstacle.body) message["mass"] = obstacle.body->mass;
   return message;
 }
 

@@ -1,3 +1,6 @@
+#include <stdexcept>
+
+#include "cloth/contact/mass_properties.h"
 #include "cloth/contact/triangle_mesh.h"
 #include "scene/readers.h"
 
@@ -7,6 +10,8 @@ namespace {
 using nlohmann::json;
 
 constexpr Range kFriction{0, 10};
+constexpr Range kMass{1e-6, 1e6, "kg"};
+constexpr Range kSpin{-1e3, 1e3, "rad/s"};
 
 /// Where it is, unless a path says so.
 void read_position(Object& object, Vec3& position) {
@@ -19,7 +24,6 @@ void read_position(Object& object, Vec3& position) {
 }
 
 BallDescription read_ball(Object& object) {
-  constexpr Range kMass{1e-6, 1e6, "kg"};
   BallDescription ball;
   object.require("radius", kLength);
   object.number("radius", ball.radius, kLength);
@@ -88,6 +92,34 @@ ObstacleDescription read_surface(Object& object, bool convex, const SceneFolder&
   return obstacle;
 }
 
+/// What makes it a body: a mass, or that it flies.
+void read_body(Object& object, ObstacleDescription& obstacle) {
+  BodyDescription body;
+  body.dynamic = object.choice("motion", {"kinematic", "dynamic"}) == 1;
+  object.number("mass", body.mass, kMass);
+  object.vector("velocity", body.velocity, kVelocity);
+  object.vector("spin", body.spin, kSpin);
+  if (body.dynamic && object.has("path")) {
+    object.problem("path", "is given for a dynamic obstacle; only kinematic ones follow a path");
+  }
+  for (const char* key : {"velocity", "spin"}) {
+    if (!body.dynamic && object.has(key)) {
+      object.problem(key, "is given for an obstacle whose motion is not \"dynamic\"");
+    }
+  }
+  if (body.dynamic || object.has("mass")) obstacle.body = body;
+}
+
+/// Its vertices are counted from the centre of mass from now on, which stays where it is.
+void centre(MeshDescription& mesh, ObstacleDescription& obstacle) {
+  TriangleList list = mesh.surface->list();
+  const Vec3 centre = mass_properties(list).centre;
+  for (Vec3& vertex : list.vertices) vertex -= centre;
+  mesh.surface = std::make_shared<const TriangleMesh>(list);
+  obstacle.position += mesh.orientation * centre;
+  for (PoseWaypoint& point : obstacle.path) point.pose.position += point.pose.orientation * centre;
+}
+
 }  // namespace
 
 void read_collider(const json& value, const std::string& path, Report& report, const SceneFolder& folder,
@@ -112,6 +144,16 @@ void read_collider(const json& value, const std::string& path, Report& report, c
   read_position(object, obstacle.position);
   if (!obstacle.path.empty()) obstacle.position = obstacle.path.front().pose.position;
   object.number("friction", obstacle.friction, kFriction);
+  if (type != 1) read_body(object, obstacle);
+  auto* mesh = std::get_if<MeshDescription>(&obstacle.shape);
+  if (obstacle.body && mesh != nullptr && mesh->surface != nullptr) {
+    try {
+      centre(*mesh, obstacle);
+    } catch (const std::invalid_argument& error) {
+      object.problem(object.has("mass") ? "mass" : "motion",
+                     "makes a body of a surface that " + std::string(error.what()));
+    }
+  }
   simulation.obstacles.push_back(obstacle);
 }
 

@@ -76,16 +76,20 @@ std::vector<EffectDescription> read_effects(Object& scene) {
   return effects;
 }
 
-/// Pins may only be fixed to obstacles that there are.
+/// Pins may only be fixed to obstacles that there are, and that nothing but themselves moves.
 void check_pins(const SimulationDescription& simulation, Report& report) {
   for (std::size_t c = 0; c < simulation.cloths.size(); ++c) {
     const std::vector<PinRegion>& pins = simulation.cloths[c].pins;
     for (std::size_t p = 0; p < pins.size(); ++p) {
-      if (!pins[p].obstacle || *pins[p].obstacle < static_cast<int>(simulation.obstacles.size())) continue;
-      report.add("/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p) + "/obstacle",
-                 "is " + std::to_string(*pins[p].obstacle) + "; the scene has " +
-                     std::to_string(simulation.obstacles.size()) +
-                     " colliders that are no balls, counted from 0");
+      if (!pins[p].obstacle) continue;
+      const std::string at = "/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p) + "/obstacle";
+      const std::string is = "is " + std::to_string(*pins[p].obstacle) + "; ";
+      if (*pins[p].obstacle >= static_cast<int>(simulation.obstacles.size())) {
+        report.add(at, is + "the scene has " + std::to_string(simulation.obstacles.size()) +
+                           " colliders that are no balls, counted from 0");
+      } else if (simulation.obstacles[static_cast<std::size_t>(*pins[p].obstacle)].body) {
+        report.add(at, is + "that one has a mass, which pins would not feel");
+      }
     }
   }
 }

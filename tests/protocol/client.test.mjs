@@ -126,6 +126,8 @@ test('each method sends its operation', async () => {
   await client.removeBall(7);
   await client.moveObstacle(0, [0, 1, 0]);
   await client.moveObstacle(1, [0, 1, 0], [0, 1, 0, 0]);
+  await client.throwObstacle(0, [0, 1, 0]);
+  await client.throwObstacle(1, [0, 1, 0], [0, 2, 0]);
   assert.equal(await client.grab({ cloth: 0, u: 0.5, v: 1, maxForce: 20 }), 3);
   await client.moveGrab(3, [0, 1, 0]);
   await client.release(3);
@@ -154,6 +156,7 @@ test('each method sends its operation', async () => {
     { op: 'camera', eye: [0, 1, 2], target: [0, 1, 0], half_angle: 0.5 }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
+    { op: 'obstacle.throw', obstacle: 0, velocity: [0, 1, 0] }, { op: 'obstacle.throw', obstacle: 1, velocity: [0, 1, 0], spin: [0, 2, 0] },
     { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
     { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
     { op: 'effect.set', effect: 'gravity', on: false },

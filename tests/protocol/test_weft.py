@@ -172,6 +172,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.remove_ball(7)
             await scene.move_obstacle(0, [0, 1, 0])
             await scene.move_obstacle(1, (0, 1, 0), quaternion=(0, 1, 0, 0))
+            await scene.throw_obstacle(0, [0, 1, 0])
+            await scene.throw_obstacle(1, (0, 1, 0), spin=(0, 2, 0))
             self.assertEqual(await scene.grab(0, 0.5, 1, max_force=20), 3)
             await scene.move_grab(3, [0, 1, 0])
             await scene.release(3)
@@ -202,6 +204,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
             {"op": "ball.remove", "ball": 7}, {"op": "obstacle.move", "obstacle": 0, "position": [0, 1, 0]},
             {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]},
+            {"op": "obstacle.throw", "obstacle": 0, "velocity": [0, 1, 0]},
+            {"op": "obstacle.throw", "obstacle": 1, "velocity": [0, 1, 0], "spin": [0, 2, 0]},
             {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
             {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
             {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "effect.set", "effect": "gravity", "on": False},

@@ -1,4 +1,4 @@
-// Balls: S8 to S10, S20, S44.
+// Balls: S8 to S10, S20, S44; bodies: S45.
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -256,6 +256,42 @@ Case resting_on() {
   return made;
 }
 
+/// A tumbling box thrown at a sheet that hangs by an edge. The box's own energy is a part of what is bounded.
+Case box_thrown(std::string name, std::string what, double mass) {
+  constexpr double kSpeed = 20;  // m/s
+  const Vec3 size(0.4, 0.3, 0.2), spin(3, 8, -5);
+  const auto scene = [=](const Setup& setup) {
+    SimulationDescription made = ordinary_sheet(setup, {kTopEdge});
+    ObstacleDescription box;
+    box.shape = BoxDescription{size};
+    box.position = {0.1, 0, 1};
+    box.friction = 0.5;
+    box.body = BodyDescription{mass, true, {0, 0, -kSpeed}, spin};
+    made.obstacles = {box};
+    return made;
+  };
+  Case made{std::move(name), std::move(what), {{4, scene}}};
+  made.expect = [=](const Setup& setup) {
+    const SimulationDescription hung = scene(setup);
+    Expectation expect;
+    // As the hung sheet of S8, by the box's largest shadow and its fastest corner.
+    const double fastest = kSpeed + spin.norm() * size.norm() / 2;
+    const double cell = kSize / (1 << setup.level), way = fastest * setup.time_step();
+    const double struck = std::max(1.0, size.x() * size.norm() / (cell * cell));
+    expect.input = struck * (4 * 5000 + 4 * 500) * way * way / 2;
+    expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * 9.81 / (1 << setup.level));
+    expect.stretch_from = 2;
+    expect.rests = false;  // the box falls for ever
+    return expect;
+  };
+  made.ending = [=](const Simulation<float>& simulation, const Setup&) -> Complaint {
+    const Vec3 velocity = simulation.colliders().obstacles()[0].body->velocity();
+    if (velocity.z() > -kSpeed) return {};
+    return "the box flies at " + std::to_string(-velocity.z()) + " m/s; should be slowed";
+  };
+  return made;
+}
+
 }  // namespace
 
 std::vector<Case> ball_cases() {
@@ -290,6 +326,8 @@ std::vector<Case> ball_cases() {
                    twice_as_large),
       rolling_under(),
       resting_on(),
+      box_thrown("S45a", "tumbling box of 20 kg thrown at 20 m/s at a hung sheet of 0.4 kg", 20),
+      box_thrown("S45b", "the same of 20 g", 0.02),
   };
 }
 

@@ -54,6 +54,13 @@ double elastic_energy(const Simulation<float>& simulation, const Cloth<float>& c
   return soft ? whole - cloth.springs().energy(state.position) + soft->energy(state.position) : whole;
 }
 
+/// Of a body, J.
+double kinetic(const Obstacle& obstacle) {
+  const RigidBody& body = *obstacle.body;
+  const Vec3 spin = body.spin(obstacle.pose.orientation);
+  return body.mass() * body.velocity().squaredNorm() / 2 + spin.dot(body.angular_momentum()) / 2;
+}
+
 bool falls(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
 
 }  // namespace
@@ -71,6 +78,10 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   for (const Ball& each : balls) {
     if (!falls(each)) continue;
     reading.energy += each.mass * (each.velocity.squaredNorm() / 2 - simulation.gravity().dot(each.position));
+  }
+  for (const Obstacle& each : simulation.colliders().obstacles()) {
+    if (!each.flies()) continue;
+    reading.energy += kinetic(each) - each.body->mass() * simulation.gravity().dot(each.pose.position);
   }
   return reading;
 }
@@ -94,6 +105,9 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
   for (const Ball& each : simulation.colliders().balls()) {
     if (falls(each))
       moving += each.mass * (each.velocity.squaredNorm() / 2 + simulation.gravity().norm() * kSize);
+  }
+  for (const Obstacle& each : simulation.colliders().obstacles()) {
+    if (each.flies()) moving += kinetic(each) + each.body->mass() * simulation.gravity().norm() * kSize;
   }
   const bool is_explicit = setup.method == Method::explicit_fixed || setup.method == Method::symplectic_euler;
   bound.allowed = rounding + input + moving * (is_explicit ? kModifiedEnergy - 1 : kRoom);

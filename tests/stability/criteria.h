@@ -21,7 +21,7 @@ namespace weft::stability {
 
 /// The state of a run after a step.
 struct Reading {
-  double energy = 0;       ///< J, of cloth and dynamic balls
+  double energy = 0;       ///< J, of cloth, dynamic balls and bodies
   double stretch = 0;      ///< of structural springs, relative
   double compression = 0;  ///< the same, of those shortened
   double penetration = 0;  ///< m

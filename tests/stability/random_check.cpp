@@ -66,7 +66,10 @@ double work_of_obstacle(const SimulationDescription& scene, const ObstacleDescri
     return (b.pose.position - a.pose.position).norm() +
            radius * a.pose.orientation.angularDistance(b.pose.orientation);
   });
-  return work_of_body(scene, radius, fastest);
+  if (!obstacle.body) return work_of_body(scene, radius, fastest);
+  // The cloth may throw it back at twice the speed of any of its points.
+  const double thrown = obstacle.body->velocity.norm() + radius * obstacle.body->spin.norm();
+  return work_of_body(scene, radius, std::max(fastest, thrown));
 }
 
 /// Of the wind's speed; gusts and eddies are of a normal distribution, in three components.

@@ -53,6 +53,18 @@ ObstacleDescription draw_obstacle(Draw& draw, const ClothDescription& cloth) {
   return obstacle;
 }
 
+/// Most of what has no path and its centre of mass at its origin.
+void make_body(Draw& draw, ObstacleDescription& obstacle) {
+  const bool central = std::holds_alternative<BoxDescription>(obstacle.shape) ||
+                       std::holds_alternative<CapsuleDescription>(obstacle.shape);
+  if (!central || !obstacle.path.empty() || draw.chance(0.2)) return;
+  BodyDescription body;
+  body.mass = draw.decades(0.01, 100);
+  body.velocity = draw.in_box(draw.decades(0.1, 50));
+  body.spin = draw.in_box(draw.decades(0.1, 50));
+  obstacle.body = body;
+}
+
 /// Its own draw for each purpose, so that a scene shrunk is treated as the whole one was.
 Draw draw_for(const SimulationDescription& scene, std::uint64_t purpose) {
   return Draw(scene.seed + (purpose << 32));
@@ -92,6 +104,7 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
     const double warp = draw.decades(1, 1e5);
     add(TearingEffect{warp, warp * draw.decades(0.1, 10)});
   }
+  for (ObstacleDescription& obstacle : scene.obstacles) make_body(draw, obstacle);
 }
 
 std::optional<Hand> hand_of(const SimulationDescription& scene) {

@@ -153,6 +153,14 @@ json scene_json(const SimulationDescription& scene) {
            {"position", json_of(point.pose.position)},
            {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}});
     }
+    if (each.body) {
+      obstacle["mass"] = each.body->mass;
+      if (each.body->dynamic) {
+        obstacle["motion"] = "dynamic";
+        obstacle["velocity"] = json_of(each.body->velocity);
+        obstacle["spin"] = json_of(each.body->spin);
+      }
+    }
     made["colliders"].push_back(std::move(obstacle));
   }
   for (const EffectDescription& effect : scene.effects) {

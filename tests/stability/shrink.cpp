@@ -50,6 +50,7 @@ Scenes simpler_than(const SimulationDescription& scene) {
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     with(simpler, scene, [&](auto& s) { s.obstacles[i].path.clear(); });
     with(simpler, scene, [&](auto& s) { s.obstacles[i].friction = 0; });
+    with(simpler, scene, [&](auto& s) { s.obstacles[i].body.reset(); });
   }
   for (std::size_t i = 0; i < scene.balls.size(); ++i) {
     with(simpler, scene, [&](auto& s) { s.balls[i].path.clear(); });

@@ -426,6 +426,11 @@ export class WeftClient {
     return this.send('obstacle.move', { obstacle, position, quaternion });
   }
 
+  /** Of an obstacle that has a mass. @param {number} obstacle its place in `scene` @param {Vector} velocity m/s @param {Vector} [spin] rad/s; without one 0 */
+  throwObstacle(obstacle, velocity, spin) {
+    return this.send('obstacle.throw', { obstacle, velocity, spin });
+  }
+
   /** What a mesh of the scene looks like. @param {number} obstacle its place in `scene` @returns {Promise<Surface>} */
   async surface(obstacle) {
     const place = new URL(`${encodeURIComponent(this.scene.name)}/meshes/${obstacle}`, this.#url.replace(/^ws/, 'http'));

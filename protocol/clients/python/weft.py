@@ -453,6 +453,10 @@ class Client:
         """An obstacle, by its place in `scene`, goes there within one step; quaternion (w, x, y, z) None: it keeps its turn."""
         return await self.send("obstacle.move", obstacle=obstacle, position=position, quaternion=quaternion)
 
+    async def throw_obstacle(self, obstacle: int, velocity, *, spin=None) -> dict:
+        """An obstacle that has a mass, by its place in `scene`, flies off at velocity, m/s, and spin, rad/s; None: 0."""
+        return await self.send("obstacle.throw", obstacle=obstacle, velocity=velocity, spin=spin)
+
     async def surface(self, obstacle: int) -> dict:
         """What a mesh of the scene looks like, by its place in `scene`: `vertices`, x, y, z of each in the mesh's own axes (m), and
         `triangles`, three vertices each, counterclockwise as seen from outside."""

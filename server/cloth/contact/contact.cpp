@@ -110,6 +110,16 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
                              {moving.move.x(), moving.move.y(), moving.move.z()}, sphere_of(placed, *sphere));
 }
 
+/// Which of a block's rows have a node that perhaps meets the solid, no ball, in the substep: the nodes go
+/// `reach`, m, at most. Beyond the ball around it where it ends up and what both move none does.
+template <class Real>
+std::uint32_t rows_near_way(const kernels::NodeBlock<Real>& block, const Solid& solid, const Substep& substep,
+                            double reach) {
+  const Vec3 place = solid.at(substep.to);
+  const double around = outer_radius(solid.shape) + (place - solid.at(substep.from)).norm() + reach;
+  return kernels::rows_inside(block, kernels::Sphere{place.x(), place.y(), place.z(), around * around});
+}
+
 bool all_yield(const std::vector<Solid>& solids) {
   return std::all_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); });
 }
@@ -132,7 +142,8 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     const double sweep = move.norm() + swing;
     const bool fast = longest + sweep > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    moving.push_back({&solid, solid.placed(substep.to), move, sweep, fast, solid.velocity, substep});
+    moving.push_back(
+        {&solid, solid.placed(substep.to), move, sweep, fast, solid.velocity, solid.spin, substep});
   }
   const std::vector<TileSolidPair>& pairs =
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});
@@ -150,8 +161,8 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
         if (node.resolve(moving, touches_)) ++in_contact;
       });
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (moving[i].velocity == solids[i].velocity) continue;
-    solids[i].go_on(moving[i].velocity, substep.to, substep.step_seconds());
+    if (moving[i].velocity == solids[i].velocity && moving[i].spin == solids[i].spin) continue;
+    solids[i].go_on(moving[i].velocity, moving[i].spin, substep.to, substep.step_seconds());
   }
   not_held_.clear();
   counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
@@ -220,8 +231,9 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach}),
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+        if (!solid.yields()) return std::uint32_t{0};
         const auto* sphere = std::get_if<Sphere>(&solid.shape);
-        if (!solid.yields() || sphere == nullptr) return std::uint32_t{0};  // only balls yield
+        if (sphere == nullptr) return rows_near_way(block, solid, substep, reach);
         // The kernel looks at the way back: from where node and ball will be to where they are.
         const Vec3 place = solid.at(substep.from), back = place - solid.at(substep.to);
         return kernels::rows_swept(block, {velocity + first, Real(1), static_cast<Real>(h)},
@@ -234,7 +246,8 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
         for (std::size_t i = 0; i < solids.size(); ++i) {
           if (!solids[i].yields()) continue;
           // As seen from the solid where it will be.
-          const Vec3 begin = place + solids[i].at(substep.to) - solids[i].at(substep.from);
+          Vec3 begin = place + solids[i].at(substep.to) - solids[i].at(substep.from);
+          if (solids[i].turns()) begin = place + solids[i].move_of(place, substep.from, substep.to);
           const Vec3 end = place + h * particles.velocity_at(row, col);
           const PlacedShape shape = solids[i].placed(substep.to);
           const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);

@@ -1,5 +1,6 @@
 #include "cloth/contact/contact_constraints.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
@@ -60,7 +61,11 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     constraints_.push_back(
         held_by(touch, solid, surface, at(position, touch.node), h * at(velocity, touch.node)));
     if (!solid.yields()) return;
-    constraints_.back().body = body_of(static_cast<std::size_t>(&solid - solids.data()), solid, bodies);
+    Constraint& made = constraints_.back();
+    made.body = body_of(static_cast<std::size_t>(&solid - solids.data()), solid, bodies);
+    if (!solid.yields_turning()) return;
+    const Vec3 guess = at(position, touch.node) + h * at(velocity, touch.node);
+    made.arm = guess - surface.distance * surface.normal - solid.at(substep.to);
   };
   // Pressed onto a solid they touch it, be they outside by a hair.
   std::vector<Touch> all = touches;
@@ -117,6 +122,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   const double sliding = (slip - slip.dot(normal) * normal).norm();
   return {touch,
           std::nullopt,
+          Vec3(0, 0, 0),
           normal,
           normal.dot(way) - surface.distance,
           solid.depth(place, substep_.from),
@@ -224,7 +230,9 @@ std::optional<int> ContactConstraints<Real>::body_of(std::size_t index, const So
   const auto known = std::find(yielding_.begin(), yielding_.end(), index);
   if (known != yielding_.end()) return static_cast<int>(known - yielding_.begin());
   yielding_.push_back(index);
-  return bodies.add(1 / (solid.inverse_mass * substep_.seconds * substep_.seconds));
+  const double h = substep_.seconds, inertia = 1 / (solid.inverse_mass * h * h);
+  if (!solid.yields_turning()) return bodies.add(inertia);
+  return bodies.add(inertia, solid.inverse_inertia.inverse() / (h * h));
 }
 
 /// As seen from a solid whose way is not bent.
@@ -232,7 +240,7 @@ template <class Real>
 Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<const Real> move,
                                        const AttachedBodies<Real>& bodies) {
   const Vec3 moved = at(move, c.touch.node);
-  return c.body ? Vec3(moved - bodies.move(*c.body)) : moved;
+  return c.body ? Vec3(moved - bodies.move(*c.body, c.arm)) : moved;
 }
 
 template <class Real>
@@ -253,7 +261,7 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
                        c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal);
     add_block(blocks, i, stiffness);
     add(b, i, force);
-    if (c.body) bodies.attach(*c.body, i, stiffness, force);
+    if (c.body) bodies.attach(*c.body, i, c.arm, stiffness, force);
   }
   bodies.eliminate(b);
 }
@@ -265,7 +273,7 @@ void ContactConstraints<Real>::append_springs(kernels::Components<const Real> mo
                                               std::vector<OneSidedSpring>& springs) const {
   for (const Constraint& c : constraints_) {
     Vec3 way = at(change, c.touch.node);
-    if (c.body) way -= bodies.change(*c.body);
+    if (c.body) way -= bodies.change(*c.body, c.arm);
     springs.push_back(
         {c.distance - c.normal.dot(move_of(c, move, bodies)), -c.normal.dot(way), c.stiffness, !c.released});
   }
@@ -296,8 +304,9 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
   }
   for (std::size_t body = 0; body < yielding_.size(); ++body) {
     Solid& solid = solids[yielding_[body]];
-    solid.go_on(solid.velocity + bodies.move(static_cast<int>(body)) / substep_.seconds, substep_.from,
-                substep_.step_seconds());
+    const int index = static_cast<int>(body);
+    solid.go_on(solid.velocity + bodies.move(index) / substep_.seconds,
+                solid.spin + bodies.turn(index) / substep_.seconds, substep_.from, substep_.step_seconds());
   }
   return pressed_;
 }

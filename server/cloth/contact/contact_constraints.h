@@ -81,6 +81,7 @@ class ContactConstraints {
   struct Constraint {
     Touch touch;
     std::optional<int> body;  ///< index
+    Vec3 arm;                 ///< where the node hangs on the body, from its centre, m; 0: by it
     Vec3 normal;
     double distance;                ///< that the node must move along the normal, m
     double led_out;                 ///< of which it is led out of the solid, where it began, m

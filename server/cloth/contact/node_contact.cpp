@@ -179,13 +179,24 @@ double NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal)
   return share * held;
 }
 
-/// The solid takes up the momentum of a velocity `lost` between the two, so that this loss is shared by their
-/// inverse masses. Returns the node's share: all of it, to the bit, where the solid does not yield.
+/// The solid takes up the momentum of a velocity `lost` between the two, at the node, so that this loss is
+/// shared by their inverse masses there: an impulse along what is lost, so that with no friction it is along
+/// the normal, and with it in friction's cone; it never adds energy. Returns the node's share: all of it, to
+/// the bit, where the solid does not yield.
 template <class Real>
 double NodeContact<Real>::part_with(const Vec3& lost, MovingSolid& moving) {
-  const double ratio = double(particles_.mass.at(row_, col_)) * moving.solid->inverse_mass;
-  const double share = 1 / (1 + ratio);
-  if (ratio > 0) moving.velocity += ratio * share * lost;
+  const Solid& solid = *moving.solid;
+  if (!solid.yields()) return 1;
+  const double mass = double(particles_.mass.at(row_, col_)), ratio = mass * solid.inverse_mass;
+  if (!solid.yields_turning()) {
+    const double share = 1 / (1 + ratio);
+    moving.velocity += ratio * share * lost;
+    return share;
+  }
+  const Vec3 arm = position_ - moving.shape.centre;
+  const double share = 1 / (1 + mass * solid.inverse_mass_at(arm, lost.stableNormalized()));
+  moving.velocity += ratio * share * lost;
+  moving.spin += solid.inverse_inertia * arm.cross(mass * share * lost);
   return share;
 }
 

@@ -21,11 +21,12 @@ struct MovingSolid {
   double sweep;       ///< the farthest that any of its points moves, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
   Vec3 velocity;      ///< with what the nodes so far gave it, m/s
+  Vec3 spin;          ///< the same, rad/s
   Substep substep;
 
   /// Of what of it is at `point`, at the substep's end, m/s.
   Vec3 velocity_at(const Vec3& point) const {
-    return solid->turns() ? Vec3(velocity + solid->spin.cross(point - shape.centre)) : velocity;
+    return spin.isZero(0) ? velocity : Vec3(velocity + spin.cross(point - shape.centre));
   }
   /// How far what is at `point` after that share of the substep goes with it until its end, m.
   Vec3 move_of(const Vec3& point, double share) const {

@@ -17,6 +17,9 @@ struct Solid {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< own axes in the world, at the step's end
   double friction = 0;                                     ///< Coulomb's coefficient
   double inverse_mass = 0;                                 ///< 1/kg; 0: nothing moves it but itself
+  /// About its centre, in the world, 1/(kg m2); 0: nothing turns it but itself, as a ball, whose turning
+  /// nobody sees.
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();
   /// It was put where it is since the last step: what of a cloth is inside is let out without motion
   /// (settle); pushed out by the step it would fly off.
   bool just_put = false;
@@ -28,15 +31,17 @@ struct Solid {
 
   /// Takes up what the cloth gives it.
   bool yields() const { return inverse_mass > 0; }
-  /// From `fraction` of a step of `dt` seconds on it has this velocity; unless that is not finite, as it is
-  /// in a step that is going to be taken back.
-  void go_on(const Vec3& with, double fraction, double dt) {
-    if (!with.allFinite()) return;
-    const Vec3 place = at(fraction);
-    velocity = with;
-    start = place - fraction * dt * velocity;
-    position = place + (1 - fraction) * dt * velocity;
+  /// Takes up what the cloth gives it by turning, too.
+  bool yields_turning() const { return !inverse_inertia.isZero(0); }
+  /// The inverse of the mass, 1/kg, that a force finds at `arm`, m, from the centre, along the unit
+  /// `direction` (Baraff, Physically Based Modeling: Rigid Body Simulation, 2001, Eq. 8-18, one body's part).
+  double inverse_mass_at(const Vec3& arm, const Vec3& direction) const {
+    const Vec3 lever = arm.cross(direction);
+    return inverse_mass + lever.dot(inverse_inertia * lever);
   }
+  /// From `fraction` of a step of `dt` seconds on it has this velocity and this spin; unless they are not
+  /// finite, as they are in a step that is going to be taken back.
+  void go_on(const Vec3& with, const Vec3& spinning, double fraction, double dt);
   /// Centre at `fraction` (0..1) of the step.
   Vec3 at(double fraction) const { return start + fraction * (position - start); }
   PlacedShape placed(double fraction) const {

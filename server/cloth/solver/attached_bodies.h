@@ -7,28 +7,33 @@
 namespace weft {
 
 /// Free bodies that hang on nodes by springs, as unknowns of an implicit step's linear system beside the
-/// nodes'. With x the nodes' change, w a body's, K_i the stiffness of its spring to node i, which A holds,
-/// too, C x = sum K_i x_i and D its mass / h^2:
-///     A x - C^T w = b,   S w - C x = r,   S = D + sum K_i.
-/// The three unknowns of each body are eliminated (Schur complement): w = S^-1 (r + C x), so that
+/// nodes'. With x the nodes' change, w a body's: of its centre and its small turn, G_i w what the point moves
+/// by that its spring to node i hangs on, K_i the stiffness of that spring, which A holds, too, C x = sum
+/// G_i^T K_i x_i and D its mass and its inertia / h^2:
+///     A x - C^T w = b,   S w - C x = r,   S = D + sum G_i^T K_i G_i.
+/// The six unknowns of each body are eliminated (Schur complement): w = S^-1 (r + C x), so that
 ///     (A - C^T S^-1 C) x = b + C^T S^-1 r,
-/// symmetric and positive definite as the whole is. A is an upper bound of it that is off in three directions
-/// a body, so a preconditioner of A serves: conjugate gradients need about three more iterations a body.
+/// symmetric and positive definite as the whole is. A is an upper bound of it that is off in six directions a
+/// body, three of one that hangs by its centre, so a preconditioner of A serves: conjugate gradients need
+/// about as many more iterations.
 template <class Real>
 class AttachedBodies {
  public:
   bool empty() const { return bodies_.empty(); }
   /// No bodies.
   void clear();
-  /// Another body, of this mass / h^2, N/m. Returns its index.
-  int add(double inertia);
+  /// Another body, of this mass / h^2, N/m, and this inertia about its centre / h^2, N m. Returns its index.
+  /// One whose springs all hang by its centre does not turn, whatever its inertia.
+  int add(double inertia, const Eigen::Matrix3d& turning_inertia = Eigen::Matrix3d::Identity());
   /// All are where they are without springs.
   void reset();
 
   /// A system is assembled as follows: detach(), attach() for every spring, eliminate().
   void detach();
-  /// Hangs a body on a node by a spring that now pulls the node with `force`, N.
-  void attach(int body, std::size_t node, const Eigen::Matrix3d& stiffness, const Vec3& force);
+  /// Hangs a body on a node, at `arm` from its centre, m, by a spring that now pulls the node with `force`,
+  /// N.
+  void attach(int body, std::size_t node, const Vec3& arm, const Eigen::Matrix3d& stiffness,
+              const Vec3& force);
   /// b += C^T S^-1 r.
   void eliminate(kernels::Components<Real> b);
 
@@ -41,26 +46,51 @@ class AttachedBodies {
   /// Takes a share of the changes.
   void scale_changes(double share);
   void take_changes();
-  /// Of a body, beyond its move without springs, m.
-  const Vec3& move(int body) const { return bodies_[static_cast<std::size_t>(body)].move; }
-  /// Of a body, that find_changes found, m.
-  const Vec3& change(int body) const { return bodies_[static_cast<std::size_t>(body)].change; }
+  /// Of what of a body is at `arm` from its centre, beyond its move without springs, m.
+  Vec3 move(int body, const Vec3& arm) const { return of(body).move.at(arm); }
+  /// The same of the change that find_changes found, m.
+  Vec3 change(int body, const Vec3& arm) const { return of(body).change.at(arm); }
+  /// Of a body's centre, beyond its move without springs, m.
+  const Vec3& move(int body) const { return of(body).move.shift; }
+  /// What a body turns by, beyond its turn without springs, rad.
+  const Vec3& turn(int body) const { return of(body).move.turn; }
 
  private:
+  /// Of a body: a move of its centre and a turn about it; or a force and a torque.
+  struct Screw {
+    Vec3 shift{0, 0, 0}, turn{0, 0, 0};
+    Vec3 at(const Vec3& arm) const { return shift + turn.cross(arm); }
+    void add_force(const Vec3& force, const Vec3& arm) {
+      shift += force;
+      turn += arm.cross(force);
+    }
+    double dot(const Screw& other) const { return shift.dot(other.shift) + turn.dot(other.turn); }
+  };
   struct Body {
-    double inertia;
-    Vec3 move{0, 0, 0}, change{0, 0, 0};
-    Vec3 force{0, 0, 0};  ///< r
-    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  ///< of S
+    double inertia = 0;
+    Eigen::Matrix3d turning_inertia = Eigen::Matrix3d::Identity();
+    Screw move{}, change{};
+    Screw force{};  ///< r
+    // S, and its inverse by blocks.
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();        ///< shift to force, without D
+    Eigen::Matrix3d coupling = Eigen::Matrix3d::Zero();         ///< turn to force
+    Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();          ///< turn to torque, without D
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();          ///< of shift to force
+    Eigen::Matrix3d inverse_turning = Eigen::Matrix3d::Zero();  ///< of its Schur complement
+    void invert();
+    /// S^-1 f.
+    Screw solve(const Screw& f) const;
   };
   struct Spring {
     std::size_t body, node;
+    Vec3 arm;
     Eigen::Matrix3d stiffness;
   };
+  const Body& of(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
+
   std::vector<Body> bodies_;
   std::vector<Spring> springs_;
-  mutable std::vector<Vec3> sums_;  ///< work space of multiply
+  mutable std::vector<Screw> sums_;  ///< work space of multiply
 };
 
 extern template class AttachedBodies<float>;

@@ -99,7 +99,7 @@ TEST(Colliders, ADynamicBallTakesUpItsImpulse) {
   Colliders colliders({description});
   colliders.begin_step(0.0, kDt, {0, 0, 0});
   std::vector<Solid> left = colliders.solids();
-  left[0].go_on({1, 0, 0.25 * left[0].inverse_mass}, 0.5, kDt);
+  left[0].go_on({1, 0, 0.25 * left[0].inverse_mass}, {0, 0, 0}, 0.5, kDt);
   colliders.push(left);
   colliders.push(left);                // another cloth
   colliders.push(colliders.solids());  // one that does not touch it
@@ -125,7 +125,7 @@ TEST(Colliders, ClothsThatTouchABallShareItsMass) {
   colliders.share(1, 2);
   EXPECT_EQ(colliders.solids()[0].inverse_mass, 2 / 2.0);
   std::vector<Solid> left = colliders.solids();
-  left[0].go_on({0, 0, 0}, 0, kDt);
+  left[0].go_on({0, 0, 0}, {0, 0, 0}, 0, kDt);
   for (int cloth = 0; cloth < 2; ++cloth) colliders.push(left);
   colliders.end_step();
   EXPECT_EQ(colliders.balls()[0].velocity, Vec3(0, 0, 0));

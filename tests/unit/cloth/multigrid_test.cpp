@@ -97,8 +97,8 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
     }
   }
 
-  /// Each hangs on a patch of 4 x 4 nodes that overlaps with the one before; the first is light, the next
-  /// ones heavy.
+  /// Each hangs on a patch of 4 x 4 nodes that overlaps with the one before; the first is light and hangs by
+  /// its centre, the next ones are heavy and hang by arms of up to half a metre, so that they turn.
   template <class Random>
   void attach_bodies(Random& random) {
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -107,14 +107,17 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       return Vec3(x, y, z);
     };
     AttachedBodies<double>& bodies = system_.bodies();
-    const int count = 3 * GetParam().bodies;
+    const int count = 6 * GetParam().bodies;
     coupling_ = Eigen::MatrixXd::Zero(count, unknowns_);
     own_ = Eigen::MatrixXd::Zero(count, count);
     pull_ = Eigen::VectorXd::Zero(count);
     for (int body = 0; body < GetParam().bodies; ++body) {
       const double inertia = body == 0 ? 1e-3 : 1e3;
-      bodies.add(inertia);
-      own_.block<3, 3>(3 * body, 3 * body) += inertia * Eigen::Matrix3d::Identity();
+      const Vec3 n = vector();
+      const Eigen::Matrix3d turning = 100 * (n * n.transpose() + Eigen::Matrix3d::Identity());
+      bodies.add(inertia, turning);
+      own_.block<3, 3>(6 * body, 6 * body) += inertia * Eigen::Matrix3d::Identity();
+      own_.block<3, 3>(6 * body + 3, 6 * body + 3) += turning;
     }
     bodies.detach();
     for (int body = 0; body < GetParam().bodies; ++body) {
@@ -122,10 +125,13 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
         const int r = 3 + node / 4, c = 4 + 2 * body + node % 4;
         const Vec3 n = vector().normalized(), force = vector();
         const Eigen::Matrix3d k = 80 * n * n.transpose() + 20 * Eigen::Matrix3d::Identity();
-        bodies.attach(body, grid_.index(r, c), k, force);
-        coupling_.block<3, 3>(3 * body, 3 * (r * grid_.cols + c)) += k;
-        own_.block<3, 3>(3 * body, 3 * body) += k;
-        pull_.segment<3>(3 * body) -= force;
+        const Vec3 arm = body == 0 ? Vec3(0, 0, 0) : Vec3(0.5 * vector());
+        bodies.attach(body, grid_.index(r, c), arm, k, force);
+        Eigen::Matrix<double, 3, 6> point;  // of what is there: shift + turn x arm
+        point << Eigen::Matrix3d::Identity(), turn_to_move(arm);
+        coupling_.block<6, 3>(6 * body, 3 * (r * grid_.cols + c)) += point.transpose() * k;
+        own_.block<6, 6>(6 * body, 6 * body) += point.transpose() * k * point;
+        pull_.segment<6>(6 * body) -= point.transpose() * force;
         const auto& blocks = system_.finest().matrix.blocks;
         const std::size_t i = grid_.index(r, c);
         blocks.xx[i] += k(0, 0);
@@ -137,6 +143,13 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       }
     }
     bodies.eliminate(vectors_.vector(3));
+  }
+
+  /// Times a turn: turn x arm.
+  static Eigen::Matrix3d turn_to_move(const Vec3& arm) {
+    Eigen::Matrix3d columns;
+    for (int axis = 0; axis < 3; ++axis) columns.col(axis) = Vec3::Unit(axis).cross(arm);
+    return columns;
   }
 
   static Material material() {
@@ -306,7 +319,7 @@ TEST_P(LinearSystem, UnfinishedSolutionLosesEnergy) {
 
 // Nodes and bodies together, by LU of the whole system.
 TEST_P(LinearSystem, BodiesMoveAsTheWholeSystemSays) {
-  const int count = 3 * GetParam().bodies;
+  const int count = 6 * GetParam().bodies;
   const int all = unknowns_ + count;
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(all, all);
   whole.topLeftCorner(unknowns_, unknowns_) = nodes_alone_;
@@ -334,7 +347,8 @@ TEST_P(LinearSystem, BodiesMoveAsTheWholeSystemSays) {
   EXPECT_LT((take(x) - expected.head(unknowns_)).cwiseAbs().maxCoeff(), 1e-10);
   bodies.take_changes();
   for (int body = 0; body < GetParam().bodies; ++body) {
-    EXPECT_LT((bodies.move(body) - expected.segment<3>(unknowns_ + 3 * body)).norm(), 1e-10) << body;
+    EXPECT_LT((bodies.move(body) - expected.segment<3>(unknowns_ + 6 * body)).norm(), 1e-10) << body;
+    EXPECT_LT((bodies.turn(body) - expected.segment<3>(unknowns_ + 6 * body + 3)).norm(), 1e-10) << body;
   }
   EXPECT_NEAR(decrease, right.dot(expected) / 2, 1e-9 * decrease);
 }

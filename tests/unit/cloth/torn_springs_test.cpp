@@ -16,12 +16,12 @@ using test::get;
 using test::set;
 using test::some_links;
 
-constexpr BaseCells kBase = test::kTornBase;
+constexpr BaseCells kSheetBase = test::kTornBase;
 
 struct TornSheet {
-  Walls walls{kBase, 3};
+  Walls walls{kSheetBase, 3};
   std::shared_ptr<const TornLinks> torn;
-  VectorField<double> position{kBase.at(3)};
+  VectorField<double> position{kSheetBase.at(3)};
 
   TornSheet() {
     for (const Link& link : some_links(3, 60, 3)) walls.add(3, link);
@@ -113,7 +113,7 @@ TEST(LinkLoads, AreTheTensionPerMetreOfAnEvenlyStretchedSheet) {
   // 1 m x 2 m, stretched by 2 % along v alone: structural springs Y e, a diagonal at 45 degrees e / 2 longer
   // with k = G, two a cell, sin^2 45 of each per metre across: G e / 2 ... to second order in e.
   constexpr double kStretch = 1e-4, kStructural = 500, kShear = 200;
-  VectorField<double> position(kBase.at(3));
+  VectorField<double> position(kSheetBase.at(3));
   each_node(position.grid(), [&](int r, int c) {
     set(position, r, c, {c / 8.0, -r / 8.0 * (1 + kStretch), 0});
   });
@@ -140,7 +140,7 @@ TEST(LinkLoads, OfALineAddUpToTheForceAcrossIt) {
   const TornSheet sheet;
   const Springs<double> springs = sheet.springs(0, true);
   // Flat and stretched, so that all links of a line point the same way.
-  VectorField<double> position(kBase.at(3));
+  VectorField<double> position(kSheetBase.at(3));
   each_node(position.grid(), [&](int r, int c) {
     set(position, r, c, {c * 0.13, -r * (0.12 + 0.002 * r), 0});
   });
@@ -173,13 +173,13 @@ TEST(SurelyHolds, NeverWhereALinkIsLoadedBeyondItsStrength) {
   // Sheets stretched along both ways and sheared, by more and more: it must say no before the first link is
   // loaded beyond its strength, and yes while they are hardly stretched.
   const Springs<double> springs(test::stiffnesses(500, 200, 50), Discretization::continuum, {1, 2},
-                                kBase.at(3));
+                                kSheetBase.at(3));
   const TearingEffect tearing{10, 20};
   for (const double shear : {0.0, 0.5, -1.0}) {
     bool beyond = false;
     for (int i = 0; i < 40; ++i) {
       const double stretch = 0.001 * i;
-      VectorField<double> position(kBase.at(3));
+      VectorField<double> position(kSheetBase.at(3));
       each_node(position.grid(), [&](int r, int c) {
         set(position, r, c,
             {(c + shear * stretch * r) / 8.0 * (1 + stretch), -r / 8.0 * (1 + stretch / 2), 0});
@@ -202,28 +202,28 @@ LinkLoads even_loads(const Grid& grid, double u, double v) {
 }
 
 TEST(LinksToBreak, NoneWithinTheStrength) {
-  const Grid grid = kBase.at(3);
+  const Grid grid = kSheetBase.at(3);
   EXPECT_TRUE(links_to_break(even_loads(grid, 1, 1), nullptr).empty());
 }
 
 TEST(LinksToBreak, ATearBeginsAtTheOneThatIsLoadedMost) {
-  LinkLoads loads = even_loads(kBase.at(3), 1.2, 1.1);
+  LinkLoads loads = even_loads(kSheetBase.at(3), 1.2, 1.1);
   loads.v[5 * 9 + 4] = 1.3;
   EXPECT_EQ(links_to_break(loads, nullptr), (std::vector<Link>{{5, 4, false}}));
 }
 
 TEST(LinksToBreak, ATearRunsAtBothItsEndsAndNoOtherBegins) {
-  LinkLoads loads = even_loads(kBase.at(3), 0, 1.2);
+  LinkLoads loads = even_loads(kSheetBase.at(3), 0, 1.2);
   loads.v[5 * 9 + 3] = loads.v[5 * 9 + 5] = 1.5;
   loads.v[9 * 9 + 1] = 1.9;
   loads.v[5 * 9 + 4] = 0;
-  TornLinks torn(kBase.at(3));
+  TornLinks torn(kSheetBase.at(3));
   torn.cut({5, 4, false});
   EXPECT_EQ(links_to_break(loads, &torn), (std::vector<Link>{{5, 3, false}, {5, 5, false}}));
 }
 
 TEST(LinksToBreak, OverloadNeedsNoTearBesideItButIsTheMostOfItsThread) {
-  LinkLoads loads = even_loads(kBase.at(3), 0, 0.5);
+  LinkLoads loads = even_loads(kSheetBase.at(3), 0, 0.5);
   loads.v[4 * 9 + 2] = 2.5;
   loads.v[5 * 9 + 2] = 3;  // the next link of the same thread
   loads.v[9 * 9 + 7] = 2.1;

@@ -12,6 +12,7 @@ scene::Scene with_a_box() {
   box.shape = BoxDescription{.size = {0.1, 0.1, 0.1}};
   box.position = {0, 5, 0};
   scene.simulation.obstacles = {box, box};
+  scene.simulation.obstacles[1].body = BodyDescription{.mass = 2, .dynamic = false};
   return scene;
 }
 
@@ -43,6 +44,35 @@ TEST_F(ObstacleCommands, MoveThemAndFramesTellOfThoseThatMoved) {
   EXPECT_EQ(error.at("code"), "not_found");
   EXPECT_EQ(error.at("path"), "/obstacle");
   EXPECT_EQ(error.at("message"), "/obstacle is 2; the scene has 2 obstacles, counted from 0");
+}
+
+TEST_F(ObstacleCommands, ThrowThoseThatHaveAMass) {
+  EXPECT_FALSE(reader.last("scene").at("obstacles").at(0).contains("mass"));
+  EXPECT_EQ(reader.last("scene").at("obstacles").at(1).at("mass"), 2);
+  EXPECT_EQ(command(ObstacleThrow{1, {0, 3, 0}, {6, 0, 0}}).at("op"), "ok");
+  steps(1);
+  const FrameObstacle thrown = reader.frames.back().obstacles.at(0);
+  EXPECT_EQ(thrown.obstacle, 1u);
+  EXPECT_NEAR(thrown.position[1], 5 + (3 - 9.81 / 60) / 60, 1e-6);
+  EXPECT_NEAR(thrown.quaternion[1], std::sin(6.0 / 60 / 2), 1e-6);
+  EXPECT_EQ(command(ObstacleMove{1, {0, 6, 0}, {}}).at("op"), "ok");
+  steps(2);
+  EXPECT_EQ(reader.frames.back().obstacles.at(0).position[1], 6);
+  const json error = command(ObstacleThrow{0, {}, {}});
+  EXPECT_EQ(error.at("code"), "unavailable");
+  EXPECT_EQ(error.at("message"), "/obstacle is 0; it has no mass");
+  EXPECT_EQ(command(ObstacleThrow{2, {}, {}}).at("code"), "not_found");
+}
+
+TEST_F(ObstacleCommands, OneThatLeavesStaysWhereItDid) {
+  EXPECT_EQ(command(ObstacleMove{1, {0, 999.9, 0}, {}}).at("op"), "ok");
+  steps(1);
+  EXPECT_EQ(command(ObstacleThrow{1, {0, 100, 0}, {}}).at("op"), "ok");
+  steps(3);
+  const float left = reader.frames.back().obstacles.at(0).position[1];
+  EXPECT_GT(left, 1000);
+  steps(3);
+  EXPECT_EQ(reader.frames.back().obstacles.at(0).position[1], left);
 }
 
 TEST_F(Commands, HandsTakeHoldPullAndLetGo) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/contact/triangle_mesh.h"
 #include "fixtures.h"
 
 namespace weft::scene::test {
@@ -129,7 +130,7 @@ TEST(Reader, BallFields) {
 
 TEST(Reader, ReadsObstacles) {
   const auto obstacles = read_good("everything").simulation.obstacles;
-  ASSERT_EQ(obstacles.size(), 5u);
+  ASSERT_EQ(obstacles.size(), 8u);
   ASSERT_TRUE(std::holds_alternative<PlaneDescription>(obstacles[0].shape));
   EXPECT_LT((std::get<PlaneDescription>(obstacles[0].shape).normal - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
   EXPECT_EQ(obstacles[0].position, Vec3(0, -1, 0));
@@ -147,6 +148,29 @@ TEST(Reader, ReadsObstacles) {
   EXPECT_LT((capsule.orientation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm(), 1e-15);
   EXPECT_EQ(obstacles[4].position, Vec3(1, 2, 3));
   EXPECT_EQ(obstacles[4].friction, 0.25);
+}
+
+TEST(Reader, ReadsBodies) {
+  const auto obstacles = read_good("everything").simulation.obstacles;
+  EXPECT_FALSE(obstacles[4].body);
+  ASSERT_TRUE(obstacles[5].body);
+  EXPECT_TRUE(obstacles[5].body->dynamic);
+  EXPECT_EQ(obstacles[5].body->mass, 2.5);
+  EXPECT_EQ(obstacles[5].body->velocity, Vec3(1, 2, 3));
+  EXPECT_EQ(obstacles[5].body->spin, Vec3(0, -4, 5));
+  ASSERT_TRUE(obstacles[6].body);
+  EXPECT_FALSE(obstacles[6].body->dynamic);
+  EXPECT_EQ(obstacles[6].body->mass, 3);
+  // The tetrahedron's centre of mass, (1, 1, 1) / 4 of its own, is its origin; turned by a quarter about z
+  // it is at (-1, 1, 1) / 4 of where it was put.
+  ASSERT_TRUE(obstacles[7].body);
+  EXPECT_EQ(obstacles[7].body->mass, 1);
+  EXPECT_LT((obstacles[7].position - Vec3(0.75, 2.25, 3.25)).norm(), 1e-14);
+  const TriangleList& hull = std::get<MeshDescription>(obstacles[7].shape).surface->list();
+  Vec3 sum(0, 0, 0);
+  for (const Vec3& corner : hull.vertices) sum += corner;
+  EXPECT_LT(sum.norm(), 1e-14);
+  EXPECT_TRUE(hull.convex);
 }
 
 TEST(Reader, PathsOfObstacles) {

@@ -55,9 +55,9 @@ TEST_F(SchemaTest, AcceptsGoodFiles) {
 TEST_F(SchemaTest, RefusesWhatTheReaderRefuses) {
   // Relations between fields, and what is no longer there once JSON has been read.
   const std::set<std::string> beyond_a_schema = {
-      "ball_path_order", "duplicate_keys",    "effect_twice",    "level_policy_order",
-      "nodes_count",     "pin_span_descends", "surfaces_values",
-      "too_many_nodes",  "wind_unread",       "zero_direction",
+      "ball_path_order",    "bodies_thin", "duplicate_keys",    "effect_twice",
+      "level_policy_order", "nodes_count", "pin_span_descends", "surfaces_values",
+      "too_many_nodes",     "wind_unread", "zero_direction",
   };
   int refused = 0;
   for (const auto& file : scene_files("bad")) {
