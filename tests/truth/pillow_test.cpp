@@ -50,8 +50,8 @@ TEST(Pillow, HoldsWhatASquareTeabagHolds) {
   EXPECT_LT(limit, 0.2172 * 1.01);
 }
 
-// Filled with what has no pressure in 0.05 m3, which the bag can hold at this level, it holds that, p_a (0.05 / V - 1) being
-// no more than what little the sheet resists: some 10 Pa, 1e-4 of p_a.
+// Filled with what has no pressure in 0.05 m3, which the bag can hold at this level, it holds that, p_a (0.05
+// / V - 1) being no more than what little the sheet resists: some 10 Pa, 1e-4 of p_a.
 class Boyle : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Methods, Boyle, ::testing::ValuesIn(kMethods), name_of_case);
 

@@ -9,7 +9,7 @@ TEST(Presets, AreListedInOrder) {
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
   EXPECT_EQ(names, (std::vector<std::string>{"flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk",
                                              "round-table", "cape", "sail", "trampoline", "washing-line",
-                                             "towel", "hide", "cushion", "swing", "zheng2020-wind",
+                                             "towel", "hide", "cushion", "pillow", "swing", "zheng2020-wind",
                                              "zheng2020-distance", "zheng2020-ball"}));
 }
 
