@@ -63,8 +63,8 @@ struct Case {
   std::vector<Phase> phases;
   std::vector<int> levels{4, 5, 6};
   double nightly_seconds = 0;  ///< of the last phase, in the nightly mode; 0: as in the phase
-  /// Cases that symplectic Euler does not claim, its substeps chosen for springs that are not crushed: a
-  /// failure is its limit.
+  /// Cases that symplectic Euler does not claim, its substeps chosen for springs that are not crushed, or so
+  /// many that their rounding shakes the sheet: a failure is its limit.
   bool beyond_explicit = false;
   /// Changes the state in a way a scene cannot say; before the first step.
   std::function<void(Simulation<float>&)> prepare = {};

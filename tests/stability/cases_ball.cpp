@@ -1,4 +1,4 @@
-// Balls: S8 to S10, S20.
+// Balls: S8 to S10, S20, S44.
 #include <algorithm>
 #include <limits>
 #include <memory>

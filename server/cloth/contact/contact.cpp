@@ -146,13 +146,14 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 move = way.move(particles.position_at(row, col), particles.grid().index(row, col));
-        NodeContact<Real> node({particles, rounded_off, start != nullptr}, row, col, move);
+        NodeContact<Real> node({particles, rounded_off, start != nullptr, not_held_}, row, col, move);
         if (node.resolve(moving, touches_)) ++in_contact;
       });
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (moving[i].velocity == solids[i].velocity) continue;
     solids[i].go_on(moving[i].velocity, substep.to, substep.step_seconds());
   }
+  not_held_.clear();
   counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
   return in_contact;
 }

@@ -86,12 +86,16 @@ class Contact {
   const std::vector<Arrival>& foresee(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                       const Substep& substep);
 
+  /// Before resolve: these lay on a solid when the substep began, and neither the ways they had nor a
+  /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
+  /// its side: resolve does not stop them.
+  void let_slide_off(const std::vector<Touch>& not_held) { not_held_ = not_held; }
   /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.
   /// Returns how many resolve did not find.
   int keep(const std::vector<Touch>& pressed);
 
-  /// What the last resolve found in contact, ordered by tile, then node, and then what was kept; after
-  /// expect() by node, then collider.
+  /// What the last resolve found in contact, ordered by tile, then node, with what slid off, and then what
+  /// was kept; after expect() by node, then collider.
   const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
@@ -110,7 +114,7 @@ class Contact {
 
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
-  std::vector<Touch> touches_, inside_;
+  std::vector<Touch> touches_, inside_, not_held_;
   std::vector<Arrival> arrivals_;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
 };

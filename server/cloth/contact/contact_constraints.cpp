@@ -14,6 +14,14 @@ namespace {
 /// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
 constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
 
+/// What is nearer lies on a solid: gravity could bring them together again, m.
+double touching_distance(double seconds) { return standard_gravity().norm() * seconds * seconds; }
+
+const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solids) {
+  return *std::find_if(solids.begin(), solids.end(),
+                       [&](const Solid& each) { return each.id == touch.collider; });
+}
+
 /// along n n^T + across (I - n n^T).
 Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
   const double both = along - across;
@@ -40,7 +48,7 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
                                      const Particles<Real>& particles, const std::vector<Solid>& solids,
                                      const Substep& substep, AttachedBodies<Real>& bodies) {
   std::swap(last_, constraints_);
-  constraints_.clear();
+  clear();
   bodies.clear();
   yielding_.clear();
   substep_ = substep;
@@ -68,7 +76,11 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     const Vec3 guess = at(position, touch.node) + h * at(velocity, touch.node);
     const Surface surface = solid->placed(substep.to).surface(guess);
     // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
-    if (surface.distance <= standard_gravity().norm() * h * h) hold(touch, *solid, surface);
+    if (surface.distance <= touching_distance(h)) {
+      hold(touch, *solid, surface);
+    } else if (lay_on(*solid, at(position, touch.node))) {
+      not_held_.push_back(touch);
+    }
   }
   const auto touching = static_cast<std::ptrdiff_t>(constraints_.size());
   for (const Arrival& arrival : arrivals) {
@@ -110,7 +122,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
           solid.depth(place, substep_.from),
           move,
           solid.friction * force,
-          sliding};
+          sliding,
+          inner_radius(solid.shape)};
 }
 
 /// This solid, or one that faces it, holds the node.
@@ -133,8 +146,7 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
   std::vector<Constraint> more;
   double energy = 0;
   for (const Touch& touch : inside) {
-    const Solid& solid = *std::find_if(solids.begin(), solids.end(),
-                                       [&](const Solid& each) { return each.id == touch.collider; });
+    const Solid& solid = solid_of(touch, solids);
     const Vec3 place = at(position, touch.node), way = at(move, touch.node);
     const Surface surface = solid.placed(substep_.to).surface(place);
     if (holds_already(touch, surface.normal)) continue;
@@ -144,6 +156,30 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
   if (energy <= missed) return false;
   constraints_.insert(constraints_.end(), more.begin(), more.end());
   sort_by_touch();
+  return true;
+}
+
+template <class Real>
+bool ContactConstraints<Real>::let_go_of_slid_off(const Particles<Real>& particles,
+                                                  const std::vector<Solid>& solids,
+                                                  kernels::Components<const Real> move,
+                                                  const AttachedBodies<Real>& bodies) {
+  const kernels::Components<const Real> position = kernels::components(particles.position);
+  const std::size_t before = not_held_.size();
+  for (const Constraint& c : constraints_) {
+    if (c.released) continue;
+    const Vec3 way = move_of(c, move, bodies);
+    if (!((way - c.solid_move).squaredNorm() > c.width * c.width)) continue;
+    const Solid& solid = solid_of(c.touch, solids);
+    const Vec3 start = at(position, c.touch.node) - at(move, c.touch.node);
+    const bool off = !solid.placed(substep_.to).may_touch(start + way, kSlidOff * c.width);
+    if (off && lay_on(solid, start)) not_held_.push_back(c.touch);
+  }
+  if (not_held_.size() == before) return false;
+  std::sort(not_held_.begin(), not_held_.end());
+  std::erase_if(constraints_, [&](const Constraint& c) {
+    return std::binary_search(not_held_.begin(), not_held_.end(), c.touch);
+  });
   return true;
 }
 
@@ -174,6 +210,11 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
     node = end;
   }
   constraints_.swap(kept);
+}
+
+template <class Real>
+bool ContactConstraints<Real>::lay_on(const Solid& solid, const Vec3& place) const {
+  return solid.placed(substep_.from).may_touch(place, touching_distance(substep_.seconds));
 }
 
 /// The body that the solid is, a new one if need be.

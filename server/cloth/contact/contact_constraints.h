@@ -24,6 +24,9 @@ namespace weft {
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
 /// iteration has put into one from the next on: put there after the step they would stretch their springs at
 /// nobody's cost.
+///
+/// A tangent plane stands for its solid only as far as that is wide (kSlidOff): a node that is drawn along it
+/// past the solid's side has slid off, and is let go.
 template <class Real>
 class ContactConstraints {
  public:
@@ -38,7 +41,16 @@ class ContactConstraints {
   bool hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
                    const std::vector<Solid>& solids, kernels::Components<const Real> move,
                    double links_stiffness, double missed);
-  void clear() { constraints_.clear(); }
+  /// Between Newton iterations: lets go of the nodes that lay on a solid when the substep began and at `move`
+  /// have slid off its side. False if there are none.
+  bool let_go_of_slid_off(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                          kernels::Components<const Real> move, const AttachedBodies<Real>& bodies);
+  /// What lay on a solid when the substep began and is not held to it, as it leaves or has slid off; ordered.
+  const std::vector<Touch>& not_held() const { return not_held_; }
+  void clear() {
+    constraints_.clear();
+    not_held_.clear();
+  }
   bool empty() const { return constraints_.empty(); }
 
   /// Adds the constraints to the system of a Newton iteration at `move`. `links_stiffness` is the sum of the
@@ -75,6 +87,7 @@ class ContactConstraints {
     Vec3 solid_move;                ///< in the substep if nothing bends its way, m
     double holds;                   ///< at most, by friction, N
     double sliding;                 ///< along the surface in the substep, if it goes on as before, m
+    double width;                   ///< of the solid, its inner radius, m
     double stiffness = 0;           ///< N/m
     double friction_stiffness = 0;  ///< N/m
     double force = 0;               ///< along the normal, N
@@ -87,12 +100,14 @@ class ContactConstraints {
   Constraint held_by(const Touch& touch, const Solid& solid, const Surface& surface, const Vec3& place,
                      const Vec3& way) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
+  /// It did when the substep began, when the node was there.
+  bool lay_on(const Solid& solid, const Vec3& place) const;
   std::optional<int> body_of(std::size_t index, const Solid& solid, AttachedBodies<Real>& bodies);
   static Vec3 move_of(const Constraint& c, kernels::Components<const Real> move,
                       const AttachedBodies<Real>& bodies);
 
   std::vector<Constraint> constraints_, last_;
-  std::vector<Touch> pressed_;
+  std::vector<Touch> pressed_, not_held_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   Substep substep_;
 };

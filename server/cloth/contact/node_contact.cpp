@@ -111,6 +111,13 @@ auto NodeContact<Real>::first_meeting(const MovingSolid& moving) const -> std::o
   return {};
 }
 
+/// Nothing holds it to the solid, and it is drawn past and well away from it: off its side, and on.
+template <class Real>
+bool NodeContact<Real>::slides_off(const MovingSolid& moving) const {
+  if (!std::binary_search(not_held_.begin(), not_held_.end(), touch(*moving.solid))) return false;
+  return !moving.shape.may_touch(position_, kSlidOff * inner_radius(moving.shape.shape));
+}
+
 /// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
 template <class Real>
 bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches) {
@@ -120,6 +127,10 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
     if (!solids[i].fast) continue;
     const std::optional<Meeting> meeting = first_meeting(solids[i]);
     if (!meeting || (first && first->fraction <= meeting->fraction)) continue;
+    if (slides_off(solids[i])) {
+      touches.push_back(touch(*solids[i].solid));
+      continue;
+    }
     first = meeting;
     which = i;
   }

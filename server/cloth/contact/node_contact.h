@@ -9,6 +9,9 @@ namespace weft {
 
 /// Cosine of the angle between the normals of solids that face each other: 120 degrees or more.
 inline constexpr double kFacing = -0.5;
+/// Of a solid's inner radius: a node farther from it on a tangent plane has slid off its side, from a ball by
+/// 1.1 radii.
+inline constexpr double kSlidOff = 0.5;
 
 /// A solid in a substep.
 struct MovingSolid {
@@ -47,6 +50,7 @@ class NodeContact {
     /// Friction has borne on the way: it left a slip of at most its coefficient times the depth it left, as
     /// contact springs are as stiff along the surface as across it (ContactConstraints).
     bool slip_is_left;
+    const std::vector<Touch>& not_held;  ///< to what it lay on (Contact::let_slide_off)
   };
   /// `move` is the node's in the substep.
   NodeContact(const State& state, int row, int col, const Vec3& move)
@@ -57,7 +61,8 @@ class NodeContact {
         position_(state.particles.position_at(row, col)),
         start_(position_ - move),
         move_(move),
-        slip_is_left_(state.slip_is_left) {}
+        slip_is_left_(state.slip_is_left),
+        not_held_(state.not_held) {}
 
   /// Brings the node out of all solids (pinched between two it stays with the one that moves least), and back
   /// from beyond those it passed through; those that yield get what it gives them, `touches` what it met.
@@ -78,6 +83,7 @@ class NodeContact {
     std::size_t solid;
     Vec3 normal;
   };
+  bool slides_off(const MovingSolid& moving) const;
   static void note(std::vector<Found>& found, std::size_t solid, const Vec3& normal);
   static std::optional<std::size_t> pinching(const std::vector<Found>& found,
                                              const std::vector<MovingSolid>& solids, const Vec3& came);
@@ -97,6 +103,7 @@ class NodeContact {
   int row_, col_;
   Vec3 position_, start_, move_;
   bool slip_is_left_;
+  const std::vector<Touch>& not_held_;
 };
 
 extern template class NodeContact<float>;

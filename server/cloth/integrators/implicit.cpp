@@ -103,6 +103,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     if (contact != nullptr) {
       const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
+      contact->let_slide_off(contacts.not_held());
       report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
@@ -282,11 +283,18 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const double allowed = left > 1 ? solved.target : std::max(solved.target, kRough * s.scale);
     const bool done = report.brought_in <= 0 && error <= allowed;
     const bool last = left <= 1 - kSpareIterations;
-    if (!last && (!done || hold_inside(particles, *forces.springs, allowed))) continue;
+    if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;
     if (forces.layers == nullptr || !hold_meeting(particles, *forces.layers)) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }
   return report;
+}
+
+template <class Real>
+bool Implicit<Real>::let_go(const Particles<Real>& particles) {
+  State& s = *state_;
+  return !s.contacts.empty() &&
+         s.contacts.let_go_of_slid_off(particles, *surroundings_.solids, s.move, s.system.bodies());
 }
 
 template <class Real>

@@ -91,6 +91,8 @@ class Implicit final : public Integrator<Real> {
   void begin_formula(double h);
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  /// Lets go of nodes that the iteration has drawn off the side of a solid; true if there are any.
+  bool let_go(const Particles<Real>& particles);
   /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
   bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   /// Holds what this iteration would have pass through each other; true if there is any.

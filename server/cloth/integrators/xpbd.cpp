@@ -66,6 +66,7 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& f
     layout_ = kernels::QuarterRows(grid);
     sheet_.assign(layout_.size(), Real(0));
     row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
+    multiplier_.clear();
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
   prepare_springs(*forces.springs, grid, h);
@@ -79,6 +80,8 @@ void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid,
   const int rows = springs.torn() ? grid.rows : 1;
   stiffness_.assign(families.size() * static_cast<std::size_t>(rows) * lanes, Real(0));
   springs_.clear();
+  const std::size_t sheet_lanes = lanes * static_cast<std::size_t>(grid.rows);
+  multiplier_.resize(springs.damping_time() > 0 ? families.size() * sheet_lanes : 0);
   // Bending, shear, structural: the stiffest have the last word.
   for (auto family = families.rbegin(); family != families.rend(); ++family) {
     Real* stiffness = stiffness_.data() + springs_.size() * static_cast<std::size_t>(rows) * lanes;
@@ -96,6 +99,9 @@ void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid,
     springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
                         static_cast<Real>(family->border_share), stiffness,
                         static_cast<Real>(springs.damping_time() / h)});
+    if (!multiplier_.empty()) {
+      springs_.back().multiplier = multiplier_.data() + (springs_.size() - 1) * sheet_lanes;
+    }
     springs_.back().row_step = springs.torn() ? static_cast<std::ptrdiff_t>(lanes) : 0;
     if (std::isfinite(family->limit.length)) {
       springs_.back().limit_length = static_cast<Real>(family->limit.length);
@@ -138,7 +144,10 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
   kernels::predict(layout_, grid, nodes, static_cast<Real>(force_share * h), static_cast<Real>(h),
                    sheet_.data(), row_.data());
   const bool damped = forces.springs->damping_time() > 0;
-  if (damped) take_back_pins(forces, 1, h);
+  if (damped) {
+    take_back_pins(forces, 1, h);
+    for (const auto& family : springs_) kernels::recall(layout_, family, sheet_.data());
+  }
   if (forces.plate != nullptr) kernels::project_plate(layout_, plate_.data(), sheet_.data());
   for (const auto& family : springs_) {
     if (family.row_step > 0) {

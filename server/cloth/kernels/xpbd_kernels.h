@@ -31,6 +31,7 @@ struct XpbdSprings {
   Real border_row_share = 0;        ///< of the stiffness, for springs that lie in the first or last row
   const Real* stiffness = nullptr;  ///< k h^2, kg, at the lane of the left end; 0 where there is no spring
   Real damping = 0;                 ///< gamma = tau / h, if the springs resist the rate of their length too
+  Real* multiplier = nullptr;       ///< of damped springs, kg m, a row of lanes for each row: kept by recall
   Real limit_length = 0;            ///< m, beyond which project_limited has them stiffer
   Real excess = 0;                  ///< by so many times their stiffness
   std::ptrdiff_t row_step = 0;      ///< from one row's stiffnesses to the next one's, for project_torn
@@ -58,10 +59,19 @@ void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<float>
 void predict(const QuarterRows& layout, const Grid& grid, const XpbdNodes<double>& nodes, double impulse_time,
              double h, double* sheet, double* row);
 
+/// Begins damped springs' multipliers with gamma / (1 + gamma) of what they were at the last substep's end,
+/// and moves the ends by that. Begun from zero, a spring under a load F would be left up to
+/// F h^2 (1 + gamma) (w_i + w_j) longer than F / k, as the sweep has it resist the very moves that bring it
+/// back. Of the multiplier 1 / (1 + gamma) is now missing, which leaves F h^2 (w_i + w_j), as without
+/// damping. Springs that turn round or double within a substep begin from zero.
+void recall(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
+void recall(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
+
 /// One sweep over the family's springs: each is projected once, in two colours. XPBD with compliance 1/k and
-/// a multiplier that starts from zero moves end i along the spring by
-/// w_i (l0 - l - gamma dl) / ((1 + gamma) (w_i + w_j) + 1 / (k h^2)), dl being how much longer the substep's
-/// moves have made the spring (Macklin et al. 2016, Eq. 26); coincident ends stay where they are.
+/// a multiplier that starts from lambda, zero where nothing is damped, moves end i along the spring by
+/// w_i (l0 - l - gamma dl - lambda / (k h^2)) / ((1 + gamma) (w_i + w_j) + 1 / (k h^2)), dl being how much
+/// longer the substep's moves have made the spring (Macklin et al. 2016, Eq. 26); coincident ends stay where
+/// they are.
 void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 /// The same where springs stiffen. As its tension is the larger one of two straight lines in its length, a

@@ -1,6 +1,8 @@
 #pragma once
 /// What the cloth's tests share: small sheets, random states, and a plain list of the springs a sheet must
 /// have.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -134,6 +136,21 @@ template <class Real>
 bool same_state(const Particles<Real>& a, const Particles<Real>& b) {
   return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
          same_bits(a.acceleration, b.acceleration);
+}
+
+/// Inner forces change neither momentum nor angular momentum: their sums are zero to what rounding leaves of
+/// a hundred nodes or so.
+inline void expect_no_net_force(const VectorField<double>& position, const VectorField<double>& force) {
+  Vec3 total = Vec3::Zero(), torque = Vec3::Zero();
+  double size = 0;
+  each_node(position.grid(), [&](int r, int c) {
+    total += get(force, r, c);
+    torque += get(position, r, c).cross(get(force, r, c));
+    size = std::max(size, get(force, r, c).norm());
+  });
+  EXPECT_GT(size, 0);
+  EXPECT_LT(total.norm(), 1e-13 * size);
+  EXPECT_LT(torque.norm(), 1e-13 * size);
 }
 
 /// Sum of the masses of a sheet, correctly rounded: a running sum with its rounding error kept (Neumaier).

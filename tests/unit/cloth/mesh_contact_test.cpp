@@ -11,6 +11,7 @@
 #include "cloth/state_hash.h"
 #include "fixtures.h"
 #include "meshes.h"
+#include "swept_sheet.h"
 
 namespace weft {
 namespace {
@@ -97,34 +98,10 @@ TYPED_TEST(MeshContact, NodesShotAtATorusFromEverywhereStayOutside) {
 }
 
 TYPED_TEST(MeshContact, ATurningBladeSweepsEveryNodeInItsWay) {
-  // A blade of 1 m each way about z and 4 cm thick turns by 80 degrees in the step over a sheet at rest in
-  // its plane: as TurningSolid's bar, with ends cut straight.
-  constexpr double kHalf = 1, kThick = 0.02, kTurn = 80 * pi / 180;
+  constexpr double kHalf = 1, kThick = 0.02;
   const TriangleMesh surface(test::box_mesh({kThick, kHalf, 0.02}));
-  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {1.9, 1.9});
-  const Particles<TypeParam> before = sheet;
-  Solid blade = solid_of(Mesh{&surface});
-  blade.turn = {0, 0, kTurn};
-  blade.spin = blade.turn / kFrame;
-  blade.rotation = turned(Vec3::UnitZ(), kTurn).toRotationMatrix();
-  std::vector<Solid> solids{blade};
-  const VectorField<TypeParam> start = sheet.position;
-  Contact<TypeParam> contact(sheet.grid());
-  contact.resolve(sheet, solids, {0, 1, kFrame}, &start);
-  const Vec3 front = blade.rotation * Vec3(-1, 0, 0);
-  int swept = 0;
-  each_node(sheet.grid(), [&](int r, int c) {
-    const Vec3 place = before.position_at(r, c), now = sheet.position_at(r, c);
-    EXPECT_FALSE(blade.placed(1).contains(now));
-    const double angle = std::fmod(std::atan2(-place.x(), place.y()) + 2 * pi, pi);
-    const double thickness = std::asin(std::min(1.0, kThick / place.norm()));
-    if (place.norm() > 0.95 * kHalf || place.norm() < 0.1) return;
-    if (angle <= thickness || angle >= kTurn - thickness) return;
-    ++swept;
-    const double side = place.dot(blade.rotation.col(1)) > 0 ? 1 : -1;  // which half of the blade
-    EXPECT_NEAR(side * now.dot(front), kThick, this->kRounding) << place.transpose();
-    EXPECT_GT(side * sheet.velocity_at(r, c).dot(front), 0);
-  });
+  const int swept = test::expect_swept<TypeParam>(
+      {Mesh{&surface}, kThick, 0.95 * kHalf, std::hypot(kHalf, kThick)}, this->kRounding);
   EXPECT_GT(swept, 280);  // of 80/180 pi 0.95^2 / (1.9 / 32)^2 = 357, less the thickness and the middle
 }
 

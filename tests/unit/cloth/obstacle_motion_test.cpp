@@ -7,6 +7,7 @@
 #include "cloth/path.h"
 #include "cloth/simulation.h"
 #include "fixtures.h"
+#include "swept_sheet.h"
 
 namespace weft {
 namespace {
@@ -128,39 +129,10 @@ TYPED_TEST(TurningSolid, FrictionGivesNodesTheVelocityOfWhatTheyTouch) {
 }
 
 TYPED_TEST(TurningSolid, ABarSweepsEveryNodeInItsWay) {
-  // A bar of 1 m each way about z, 4 cm thick, turns by 80 degrees in the step, over a sheet at rest in its
-  // plane. A node within its reach and the angle is taken along: on the bar's front. The others stay.
-  constexpr double kHalf = 1, kRadius = 0.02, kTurn = 80 * pi / 180;
-  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {1.9, 1.9});
-  const Particles<TypeParam> before = sheet;
-  Solid bar;
-  bar.id = kFirstObstacle;
-  bar.shape = Capsule{kHalf, kRadius};
-  bar.turn = {0, 0, kTurn};
-  bar.spin = bar.turn / kFrame;
-  bar.rotation = about(Vec3::UnitZ(), kTurn).toRotationMatrix();  // from along y
-  std::vector<Solid> solids{bar};
-  const VectorField<TypeParam> start = sheet.position;
-  Contact<TypeParam> contact(sheet.grid());
-  contact.resolve(sheet, solids, {0, 1, kFrame}, &start);
-  const Vec3 front = bar.rotation * Vec3(-1, 0, 0);
-  int swept = 0;
-  each_node(sheet.grid(), [&](int r, int c) {
-    const Vec3 place = before.position_at(r, c), now = sheet.position_at(r, c);
-    EXPECT_FALSE(bar.placed(1).contains(now));
-    // Of a half turn; the bar's other half comes round to the rest of the circle.
-    const double angle = std::fmod(std::atan2(-place.x(), place.y()) + 2 * pi, pi);
-    const double thickness = std::asin(std::min(1.0, kRadius / place.norm()));
-    if (place.norm() > kHalf + kRadius || (angle > kTurn + thickness && angle < pi - thickness)) {
-      EXPECT_EQ(now, place);
-    } else if (place.norm() < kHalf && place.norm() > 0.1 && angle > thickness && angle < kTurn - thickness) {
-      ++swept;
-      const double side = place.dot(bar.rotation.col(1)) > 0 ? 1 : -1;  // which half of the bar
-      EXPECT_NEAR(side * now.dot(front), kRadius, this->kRounding) << place.transpose();
-      EXPECT_GT(side * sheet.velocity_at(r, c).dot(front), 0);
-    }
-  });
-  EXPECT_GT(swept, 300);  // of pi kTurn / pi / (1.9 / 32)^2 = 396, less the thickness and the middle
+  constexpr double kHalf = 1, kRadius = 0.02;
+  const int swept = test::expect_swept<TypeParam>({Capsule{kHalf, kRadius}, kRadius, kHalf, kHalf + kRadius},
+                                                  this->kRounding);
+  EXPECT_GT(swept, 300);  // of 80/180 pi / (1.9 / 32)^2 = 396, less the thickness and the middle
 }
 
 SimulationDescription on_a_turntable(const IntegratorDescription& integrator) {
