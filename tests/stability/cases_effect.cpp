@@ -1,4 +1,4 @@
-// Effects driven far: S42 plates, S43 damped springs, S45 pillows.
+// Effects driven far: S42 plates, S43 damped springs, S46 pillows.
 #include <memory>
 
 #include "criteria.h"
@@ -140,7 +140,7 @@ Case thrown_pillow() {
     made.obstacles = {floor};
     return made;
   };
-  Case made{"S45a",
+  Case made{"S46a",
             "pillow thrown on the floor at 20 m/s while it is filled: stays sewn, comes to rest",
             {{6, scene}}};
   made.levels = {4, 5};
@@ -157,7 +157,7 @@ Case thrown_pillow() {
 /// All of the gas is there at once, in a bag that lies flat: 25 atmospheres, which blow it up within a step.
 Case burst_open() {
   const auto scene = [](const Setup& setup) { return pillow(setup, {0, 0.1, 0}); };
-  Case made{"S45b", "flat bag with all of its gas at once, at 25 atmospheres: stays sewn", {{4, scene}}};
+  Case made{"S46b", "flat bag with all of its gas at once, at 25 atmospheres: stays sewn", {{4, scene}}};
   made.levels = {4, 5};
   made.watch = stays_closed;
   made.expect = [](const Setup&) {
