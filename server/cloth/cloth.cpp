@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -34,6 +35,18 @@ void set(VectorField<Real>& field, int r, int c, const Vec3& value) {
   field.z.at(r, c) = static_cast<Real>(value.z());
 }
 
+/// Where the node at (u, v) of a cloth that is not sewn starts, as the cloth lies in its own x-y plane, m.
+Vec3 flat(const Vec2& size, double u, double v) { return {(u - 0.5) * size.x(), (0.5 - v) * size.y(), 0.0}; }
+
+/// The same of a bag: its two sides lie on each other, opened by a hundredth of their shorter edge, which
+/// stretches them by less than 0.05 %.
+Vec3 folded(const Vec2& size, double u, double v) {
+  constexpr double kOpening = 0.005, kPi = std::numbers::pi;
+  const double width = size.x() / 2;
+  return {2 * width * (std::min(u, 1 - u) - 0.25), (0.5 - v) * size.y(),
+          kOpening * std::min(width, size.y()) * std::sin(2 * kPi * u) * std::sin(kPi * v)};
+}
+
 /// Start positions, without the random offsets.
 template <class Real>
 void place(const ClothDescription& description, Particles<Real>& particles) {
@@ -44,7 +57,7 @@ void place(const ClothDescription& description, Particles<Real>& particles) {
   std::size_t next = 0;
   for_each_node(grid, [&](int r, int c, double u, double v) {
     if (description.nodes.empty()) {
-      const Vec3 local((u - 0.5) * description.size.x(), (0.5 - v) * description.size.y(), 0.0);
+      const Vec3 local = (description.sewn ? folded : flat)(description.size, u, v);
       set(particles.position, r, c, description.position + description.orientation * local);
     } else {
       set(particles.position, r, c, description.nodes[next++]);
@@ -90,7 +103,9 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
                 [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
   enter_level(level, std::move(particles));
   perturb(description_, seed, particles_);
-  begins_ = !description_.nodes.empty();
+  if (seam_) seam_->join(particles_);
+  fill();
+  begins_ = !description_.nodes.empty() && !description_.sewn;
   hand_to_guard();
 }
 
@@ -105,11 +120,24 @@ void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
   damping_time_ = 0;
   bends_plate_ = limits_strain_ = false;
   tearing_.reset();
+  filling_.reset();
   for (const EffectDescription& effect : effects) {
+    const auto* inflation = std::get_if<InflationEffect>(&effect);
+    if (inflation != nullptr && inflation->volume && description_.sewn) filling_ = *inflation;
     if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
     if (const auto* tearing = std::get_if<TearingEffect>(&effect)) tearing_ = *tearing;
     bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
     limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
+  }
+}
+
+template <class Real>
+void Cloth<Real>::fill() {
+  if (!filling_) {
+    gas_.reset();
+  } else if (!gas_ || gas_->inflation() != *filling_) {
+    const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
+    gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
   }
 }
 
@@ -165,7 +193,11 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
   level_ = level;
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
-  pins_ = Pins<Real>(description_.pins, time_, particles_);
+  if (description_.sewn) {
+    seam_.emplace(particles_.grid());
+    seam_->join(particles_);
+  }
+  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
   if (walls_) take_over_walls();
   make_springs();
   earlier_contacts_ = contact_counters();
@@ -226,6 +258,7 @@ template <class Real>
 void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
   guard_.repair(particles_);
   compose(effects);
+  fill();
   make_springs();
   node_air_.reset();
   integrator_ = make_integrator<Real>(guard_.method());  // without the arrays of what is gone
@@ -304,7 +337,7 @@ void Cloth<Real>::moved_from_outside() {
 template <class Real>
 void Cloth<Real>::set_pins() {
   guard_.repair(particles_);
-  pins_ = Pins<Real>(description_.pins, time_, particles_);
+  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
   make_springs();  // a plate is clamped where it is held
   integrator_->restart();
   hand_to_guard();
@@ -317,13 +350,14 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   solids_ = solids;  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();
+  if (gas_ && gas_->fills(time)) wake();
   if (!solids.empty() && is_put_onto(particles_, contact(), solids)) unsettled_ = Unsettled::by_solid;
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
     if (unsettled_ != Unsettled::no) {
-      settle(particles_, unsettled_, springs_, plate(), description_, solids.empty() ? nullptr : &contact(),
-             solids, dt);
+      settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
+             solids.empty() ? nullptr : &contact(), solids, dt);
     }
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);
@@ -346,14 +380,25 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
 }
 
 template <class Real>
+Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
+  return {.springs = &springs_,
+          .effects = &effects_,
+          .context = context,
+          .plate = plate(),
+          .seam = seam(),
+          .gas = gas_.get()};
+}
+
+template <class Real>
 AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   EffectContext context{&description_, &air.wind(), time};
   if (torn_) context.whole_faces = &whole_faces_;
   context.gusts = air.gusts();
   context.node_air = node_air(air, time, dt);
-  Forces<Real> forces{&springs_, &effects_, context, pins_.moving() ? &pins_ : nullptr, plate()};
-  if (layers_ != nullptr && !layers_->empty()) forces.layers = layers_;
-  return integrator_->advance(particles_, forces, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
+  Forces<Real> all = forces(context);
+  if (pins_.moving()) all.pins = &pins_;
+  if (layers_ != nullptr && !layers_->empty()) all.layers = layers_;
+  return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 
 template <class Real>

@@ -28,6 +28,10 @@ class Cloth {
   const Springs<Real>& springs() const { return springs_; }
   /// nullptr where plates are not bent.
   const Plate<Real>* plate() const { return plate_ ? &*plate_ : nullptr; }
+  /// nullptr where the cloth is not sewn.
+  const Seam<Real>* seam() const { return seam_ ? &*seam_ : nullptr; }
+  /// nullptr where no gas is shut in.
+  const Gas<Real>* gas() const { return gas_.get(); }
   /// J, of springs and plate.
   double elastic_energy() const;
   /// nullptr while the cloth is whole.
@@ -99,6 +103,8 @@ class Cloth {
  private:
   /// Takes what the effects say to itself; their objects are the caller's to make.
   void compose(const std::vector<EffectDescription>& effects);
+  /// Begins to pour in the gas of `filling_`, if it is not what is there.
+  void fill();
   void enter_level(int level, Particles<Real> particles);
   /// A cell's width and height, m.
   Vec2 cell(const Grid& grid) const {
@@ -112,6 +118,8 @@ class Cloth {
   void tear();
   Contact<Real>& contact();
   void set_pins();
+  /// Of the cloth as it is, beside moving pins and layers.
+  Forces<Real> forces(const EffectContext& context);
   AdvanceReport attempt(const Air& air, double time, double dt);
   /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
   const VectorField<float>* node_air(const Air& air, double time, double dt);
@@ -126,16 +134,19 @@ class Cloth {
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
-  double time_ = 0;             ///< s, at the end of the last step that was made
-  double damping_time_ = 0;     ///< s, of the springs (StrainDampingEffect)
-  bool bends_plate_ = false;    ///< PlateBendingEffect is there
-  bool limits_strain_ = false;  ///< StrainLimitEffect is there
+  double time_ = 0;                         ///< s, at the end of the last step that was made
+  double damping_time_ = 0;                 ///< s, of the springs (StrainDampingEffect)
+  bool bends_plate_ = false;                ///< PlateBendingEffect is there
+  bool limits_strain_ = false;              ///< StrainLimitEffect is there
+  std::optional<InflationEffect> filling_;  ///< InflationEffect is there, and gas is shut in
   std::optional<TearingEffect> tearing_;
   std::optional<Walls> walls_;             ///< made by the first tear; stay if tearing_ goes
   std::shared_ptr<const TornLinks> torn_;  ///< by the walls at this level; nullptr while the cloth is whole
   std::vector<FaceRun> whole_faces_;       ///< of torn_
   Springs<Real> springs_;
   std::optional<Plate<Real>> plate_;
+  std::optional<Seam<Real>> seam_;  ///< at this level, if the cloth is sewn
+  std::unique_ptr<Gas<Real>> gas_;
   std::vector<std::unique_ptr<Effect<Real>>> effects_;  ///< the description's, then what was added
   std::size_t composed_ = 0;                            ///< of effects_, the description's
   Grabs<Real>* grabs_ = nullptr;                        ///< one of effects_ as long as something is held

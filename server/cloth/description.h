@@ -82,9 +82,14 @@ struct ClothContactEffect {
 
 /// Air under a sheet that is held all round its rim, as under an air-supported roof or in a bouncy castle: a
 /// pressure above that outside, kept up whatever the volume, pushes every face along its normal, F = p A. A
-/// sheet whose rim is free is pushed from its back.
+/// sheet whose rim is free is pushed from its back. With a volume, gas that is shut in the scene's sewn
+/// cloths and no other, each its own (effects/gas.h).
 struct InflationEffect {
-  double pressure = 100;  ///< Pa; finite. Below 0 it sucks.
+  double pressure = 100;  ///< Pa; finite. Below 0 it sucks; that of gas is above -p_a.
+  /// What the gas has this pressure in, m3; > 0. Default: there is a pump, which keeps the pressure up.
+  std::optional<double> volume = {};
+  double fill_time = 1;  ///< from when the effect is there, during which gas is poured in, s; >= 0
+  bool operator==(const InflationEffect&) const = default;
   static constexpr const char* kName = "inflation";
 };
 
@@ -145,6 +150,9 @@ struct ClothDescription {
   int min_level = 4, max_level = 6, initial_level = 6;
   Material material;
   Discretization discretization = Discretization::continuum;
+  /// A bag: folded over along u = 1/2, its back inside, and sewn together along its open rims (seam.h). It
+  /// begins so, hardly open, its flat half as wide.
+  bool sewn = false;
   std::vector<PinRegion> pins;
   Relevance relevance;
 };

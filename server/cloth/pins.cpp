@@ -30,6 +30,18 @@ std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
                      nearest(region.u_min, region.u_max, grid.cols))};
 }
 
+/// Adds the other node of every pair of which one is there; `nodes` ascend.
+template <class Real>
+void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
+  std::vector<std::size_t> added;
+  for (const auto& [left, right] : seam.pairs()) {
+    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
+    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
+    if (has_left != has_right) added.push_back(has_left ? right : left);
+  }
+  nodes.insert(nodes.end(), added.begin(), added.end());
+}
+
 template <class Real>
 Vec3 get(const VectorField<Real>& field, std::size_t i) {
   return {double(field.x.row(0)[i]), double(field.y.row(0)[i]), double(field.z.row(0)[i])};
@@ -45,13 +57,15 @@ void set(VectorField<Real>& field, std::size_t i, const Vec3& value) {
 }  // namespace
 
 template <class Real>
-Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles) {
+Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
+                 const Seam<Real>* seam) {
   const Grid& grid = particles.grid();
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.cols; ++c) particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
   }
   for (const PinRegion& region : regions) {
-    const std::vector<std::size_t> nodes = nodes_in(region, grid);
+    std::vector<std::size_t> nodes = nodes_in(region, grid);
+    if (seam != nullptr) add_sewn(*seam, nodes);
     for (const std::size_t node : nodes) {
       particles.inverse_mass.row(0)[node] = Real(0);
       set(particles.velocity, node, Vec3::Zero());

@@ -5,6 +5,7 @@
 #include "cloth/description.h"
 #include "cloth/particles.h"
 #include "cloth/path.h"
+#include "cloth/seam.h"
 
 namespace weft {
 
@@ -15,8 +16,9 @@ class Pins {
  public:
   Pins() = default;
   /// Holds the nodes of all regions: their inverse mass becomes 0 (the others' 1/mass), their velocity 0. The
-  /// particles are where they are at `time`, s.
-  Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles);
+  /// particles are where they are at `time`, s. With a seam, whose nodes are held both or neither.
+  Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
+       const Seam<Real>* seam = nullptr);
 
   /// Whether any pin has a path or an obstacle.
   bool moving() const { return !carried_.empty() || !fixed_.empty(); }

@@ -45,21 +45,24 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 }
 
 template <class Real>
-void settle(Particles<Real>& particles, Unsettled by, const Springs<Real>& springs, const Plate<Real>* plate,
-            const ClothDescription& cloth, Contact<Real>* contact, const std::vector<Solid>& solids,
-            double longest) {
+void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
+            const std::vector<Solid>& solids, double longest) {
+  const ClothDescription& cloth = *forces.context.cloth;
   const double crossing =
       cloth.size.maxCoeff() * std::sqrt(cloth.material.density / cloth.material.structural);
   const Particles<Real> before = particles;
   std::vector<Solid> still = at_start(solids);
   const Wind calm;
   const std::vector<std::unique_ptr<Effect<Real>>> no_effects;
-  const Forces<Real> forces{&springs, &no_effects, {&cloth, &calm, 0}, nullptr, plate};
+  forces.effects = &no_effects;
+  forces.context.wind = &calm;
   const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
   bool sound = true;
   for (int step = 0; step < steps_from(by) && sound; ++step) {
     stop(particles);
-    sound = relaxing->advance(particles, forces, contact, still, 0, std::min(crossing, longest)).sound;
+    sound =
+        relaxing->advance(particles, forces, contact, still, forces.context.time, std::min(crossing, longest))
+            .sound;
   }
   if (!sound) particles.position = before.position;
   particles.velocity = before.velocity;
@@ -68,9 +71,9 @@ void settle(Particles<Real>& particles, Unsettled by, const Springs<Real>& sprin
 
 template bool is_put_onto<float>(const Particles<float>&, Contact<float>&, const std::vector<Solid>&);
 template bool is_put_onto<double>(const Particles<double>&, Contact<double>&, const std::vector<Solid>&);
-template void settle<float>(Particles<float>&, Unsettled, const Springs<float>&, const Plate<float>*,
-                            const ClothDescription&, Contact<float>*, const std::vector<Solid>&, double);
-template void settle<double>(Particles<double>&, Unsettled, const Springs<double>&, const Plate<double>*,
-                             const ClothDescription&, Contact<double>*, const std::vector<Solid>&, double);
+template void settle<float>(Particles<float>&, Unsettled, Forces<float>, Contact<float>*,
+                            const std::vector<Solid>&, double);
+template void settle<double>(Particles<double>&, Unsettled, Forces<double>, Contact<double>*,
+                             const std::vector<Solid>&, double);
 
 }  // namespace weft

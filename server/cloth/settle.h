@@ -18,15 +18,14 @@ enum class Unsettled {
 template <class Real>
 bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& solids);
 
-/// Lets springs and plate relax without motion: steps of backward Euler from rest, with no effect at work,
-/// among the solids as they are when the step begins; the velocities stay as they were. Each lasts as long as
-/// a wave of stretch takes to run across the sheet, sqrt(density / structural) times its size (`longest`, s,
-/// at most): what is stretched evens out, folds keep their shape.
+/// Lets springs and plate, seam and gas relax without motion: steps of backward Euler from rest, with no
+/// effect at work, at the time of `forces`, among the solids as they are when the step begins; the velocities
+/// stay as they were. Each lasts as long as a wave of stretch takes to run across the sheet, sqrt(density /
+/// structural) times its size (`longest`, s, at most): what is stretched evens out, folds keep their shape.
 ///
 /// Nothing happens if no relaxed state is found.
 template <class Real>
-void settle(Particles<Real>& particles, Unsettled by, const Springs<Real>& springs, const Plate<Real>* plate,
-            const ClothDescription& cloth, Contact<Real>* contact, const std::vector<Solid>& solids,
-            double longest);
+void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
+            const std::vector<Solid>& solids, double longest);
 
 }  // namespace weft

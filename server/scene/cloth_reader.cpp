@@ -231,7 +231,9 @@ ClothDescription read_cloth(const json& value, const std::string& path, Report& 
     report.add(path, "has " + std::to_string(nodes) + " nodes at level " + std::to_string(cloth.max_level) +
                          "; at most " + std::to_string(kMaxClothNodes) + " are allowed");
   }
+  object.boolean("sewn", cloth.sewn);
   if (object.has("nodes")) {
+    if (cloth.sewn) object.problem("nodes", "is given beside sewn; a bag begins flat");
     read_nodes(object, cloth);
   }
   object.vector("position", cloth.position, kPosition);

@@ -61,6 +61,9 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
   constexpr Range kThickness{1e-4, 1, "m"};
   constexpr Range kFriction{0, 10};
   constexpr Range kPressure{-1e6, 1e6, "Pa"};
+  constexpr Range kPressureOfGas{-1e5, 1e6, "Pa"};  // above a vacuum's
+  constexpr Range kVolume{1e-9, 1e9, "m3"};
+  constexpr Range kFillTime{0, 3600, "s"};
   Object object(value, path, report);
   object.require("type", "an effect's name");
   switch (object.choice(
@@ -105,7 +108,12 @@ std::optional<EffectDescription> read_effect(const json& value, const std::strin
     }
     case 8: {
       InflationEffect inflation;
-      object.number("pressure", inflation.pressure, kPressure);
+      double volume = 0;
+      if (object.number("volume", volume, kVolume)) inflation.volume = volume;
+      const bool shut_in = object.has("volume");
+      object.number("pressure", inflation.pressure, shut_in ? kPressureOfGas : kPressure);
+      if (object.number("fill_time", inflation.fill_time, kFillTime) && !shut_in)
+        object.problem("fill_time", "is given without volume; a pressure that is kept up is there at once");
       return inflation;
     }
     case 9:

@@ -94,6 +94,26 @@ void check_pins(const SimulationDescription& simulation, Report& report) {
   }
 }
 
+/// Layers of cloth would take the nodes of a seam for two that touch, and a torn seam for whole.
+void check_sewn(const SimulationDescription& simulation, Report& report) {
+  const auto& cloths = simulation.cloths;
+  const auto sewn = std::find_if(cloths.begin(), cloths.end(), [](const auto& cloth) { return cloth.sewn; });
+  for (std::size_t i = 0; i < simulation.effects.size(); ++i) {
+    const EffectDescription& effect = simulation.effects[i];
+    const auto* inflation = std::get_if<InflationEffect>(&effect);
+    if (sewn == cloths.end()) {
+      if (inflation == nullptr || !inflation->volume) continue;
+      report.add(element_path("/effects", i) + "/volume", "is given, but no cloth of the scene is sewn");
+    } else if (std::holds_alternative<ClothContactEffect>(effect) ||
+               std::holds_alternative<TearingEffect>(effect)) {
+      report.add(element_path("/effects", i) + "/type",
+                 "is \"" + std::visit([](const auto& e) { return std::string(e.kName); }, effect) +
+                     "\", which does not go with a cloth that is sewn, as " +
+                     element_path("/cloths", static_cast<std::size_t>(sewn - cloths.begin())) + " is");
+    }
+  }
+}
+
 bool reads_wind(const EffectDescription& effect) {
   return std::holds_alternative<PaperWindEffect>(effect) ||
          std::holds_alternative<AerodynamicsEffect>(effect);
@@ -122,6 +142,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
     });
     check_pins(simulation, report);
     simulation.effects = read_effects(object);
+    check_sewn(simulation, report);
     if (const json* wind = object.find("wind")) {
       simulation.wind = read_wind(*wind, "/wind", report);
       if (std::none_of(simulation.effects.begin(), simulation.effects.end(), reads_wind)) {

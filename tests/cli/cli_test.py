@@ -17,7 +17,7 @@ HASHES = pathlib.Path(__file__).with_name("hashes.json")
 LIMIT_S = 120
 
 PRESETS = ["flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk", "round-table", "cape", "sail", "trampoline", "washing-line",
-           "towel", "hide", "cushion", "paper-screen", "swing",
+           "towel", "hide", "cushion", "pillow", "paper-screen", "swing",
            "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
 
 

@@ -1,4 +1,4 @@
-// Effects driven far: S42 plates, S43 damped springs.
+// Effects driven far: S42 plates, S43 damped springs, S46 pillows.
 #include <memory>
 
 #include "criteria.h"
@@ -99,6 +99,78 @@ Case swung_down() {
   return made;
 }
 
+/// Two squares of 1 m sewn together, with gas.
+SimulationDescription pillow(const Setup& setup, const InflationEffect& gas) {
+  SimulationDescription made = level_sheet(setup, {});
+  ClothDescription& cloth = made.cloths[0];
+  cloth.sewn = true;
+  cloth.size = {2, 1};
+  cloth.base_cells = {2, 1};
+  for (int* level : {&cloth.min_level, &cloth.max_level, &cloth.initial_level}) *level = setup.level - 1;
+  made.effects.emplace_back(StrainDampingEffect{0.002});
+  made.effects.emplace_back(gas);
+  return made;
+}
+
+/// A pair of nodes apart, or later a bag inside out, is a fault.
+Watch stays_closed(const Setup&) {
+  return [](const Simulation<float>& simulation, double time) -> Complaint {
+    const Cloth<float>& bag = simulation.cloths()[0];
+    const VectorField<float>& at = bag.particles().position;
+    for (const auto& [left, right] : bag.seam()->pairs()) {
+      for (const Field<float>* component : {&at.x, &at.y, &at.z}) {
+        if (component->row(0)[left] != component->row(0)[right]) return "the seam is open";
+      }
+    }
+    const double volume = enclosed_volume(at);
+    if (time > 1 && !(volume > 0)) return "holds " + std::to_string(volume) + " m3";
+    return {};
+  };
+}
+
+/// Thrown flat on the floor, half full of air.
+Case thrown_pillow() {
+  const auto scene = [](const Setup& setup) {
+    SimulationDescription made = pillow(setup, {0, 0.1, 0.5});
+    made.cloths[0].position = {0, 1, 0};
+    made.cloths[0].velocity = {3, -20, 0};
+    ObstacleDescription floor;
+    floor.shape = PlaneDescription{};
+    floor.friction = 0.5;
+    made.obstacles = {floor};
+    return made;
+  };
+  Case made{"S46a",
+            "pillow thrown on the floor at 20 m/s while it is filled: stays sewn, comes to rest",
+            {{6, scene}}};
+  made.levels = {4, 5};
+  made.watch = stays_closed;
+  made.expect = [](const Setup&) {
+    Expectation expect;
+    expect.input = Gas<float>::kOutside * 0.1;  // what pouring in may do
+    expect.stretch_from = 3;
+    return expect;
+  };
+  return made;
+}
+
+/// All of the gas is there at once, in a bag that lies flat: 25 atmospheres, which blow it up within a step.
+Case burst_open() {
+  const auto scene = [](const Setup& setup) { return pillow(setup, {0, 0.1, 0}); };
+  Case made{"S46b", "flat bag with all of its gas at once, at 25 atmospheres: stays sewn", {{4, scene}}};
+  made.levels = {4, 5};
+  made.watch = stays_closed;
+  made.expect = [](const Setup&) {
+    Expectation expect;
+    expect.input = 8 * Gas<float>::kOutside * 0.1;
+    expect.stretch = 0.2;  // of XPBD, whose seam is pulled against the gas
+    expect.stretch_from = 3;
+    expect.rests = false;  // it falls
+    return expect;
+  };
+  return made;
+}
+
 }  // namespace
 
 std::vector<Case> effect_cases() {
@@ -108,6 +180,8 @@ std::vector<Case> effect_cases() {
       let_go("S42c", "plate of 100 N m, a board: the same", 100),
       stretched(),
       swung_down(),
+      thrown_pillow(),
+      burst_open(),
   };
 }
 

@@ -92,7 +92,10 @@ double input(const SimulationDescription& scene) {
       const double pushed = cloth.discretization == Discretization::paper ? grid.nodes() : area;
       work += work_of_force(steady->factor * wind * pushed, mass, speed);
     } else if (const auto* inflation = std::get_if<InflationEffect>(&effect)) {
-      work += work_of_force(std::abs(inflation->pressure) * area, mass, speed);
+      if (!inflation->volume) work += work_of_force(std::abs(inflation->pressure) * area, mass, speed);
+      // All at once in a flat bag it may do c ln(V / V0), of which kLeastShare says 7 c.
+      if (inflation->volume && cloth.sewn)
+        work += 8 * (Gas<float>::kOutside + inflation->pressure) * *inflation->volume;
     } else if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
       // Layers put apart by the thickness within one step.
       const double apart = contact->thickness / scene.time_step;

@@ -70,6 +70,22 @@ Draw draw_for(const SimulationDescription& scene, std::uint64_t purpose) {
   return Draw(scene.seed + (purpose << 32));
 }
 
+/// Most of them with gas, up to more than they hold unstretched: a bag of two squares of side a about a^3
+/// / 5.
+void sew(Draw& draw, SimulationDescription& scene) {
+  ClothDescription& cloth = scene.cloths[0];
+  cloth.sewn = true;
+  if (draw.chance(0.3)) return;
+  InflationEffect gas{draw.between(-1e3, 1e4), std::pow(cloth.size.prod() / 2, 1.5) * draw.decades(0.01, 0.3),
+                      draw.chance(0.5) ? 0 : draw.between(0, 2)};
+  for (EffectDescription& effect : scene.effects) {
+    if (!std::holds_alternative<InflationEffect>(effect)) continue;
+    effect = gas;
+    return;
+  }
+  scene.effects.emplace_back(gas);
+}
+
 }  // namespace
 
 void add_surroundings(Draw& draw, SimulationDescription& scene) {
@@ -103,6 +119,8 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
   if (!layers && draw.chance(0.5)) {
     const double warp = draw.decades(1, 1e5);
     add(TearingEffect{warp, warp * draw.decades(0.1, 10)});
+  } else if (!layers && cloth.nodes.empty()) {
+    sew(draw, scene);
   }
   for (ObstacleDescription& obstacle : scene.obstacles) make_body(draw, obstacle);
 }

@@ -52,10 +52,15 @@ TEST(RandomScene, IsTheSameForTheSameSeed) {
 // What a new effect or shape adds to its variant is missed here until it is drawn.
 TEST(RandomScene, HundredSeedsHaveEverything) {
   std::set<std::size_t> effects, shapes, integrators;
-  int paths = 0, bodies = 0, gusts = 0, eddies = 0, hands = 0, switches = 0;
+  int paths = 0, bodies = 0, gusts = 0, eddies = 0, hands = 0, switches = 0, bags = 0, gas = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const SimulationDescription drawn = random_scene(seed, 4);
-    for (const EffectDescription& each : drawn.effects) effects.insert(each.index());
+    for (const EffectDescription& each : drawn.effects) {
+      effects.insert(each.index());
+      const auto* inflation = std::get_if<InflationEffect>(&each);
+      gas += inflation != nullptr && inflation->volume.has_value();
+    }
+    bags += drawn.cloths[0].sewn;
     for (const ObstacleDescription& each : drawn.obstacles) {
       shapes.insert(each.shape.index());
       paths += !each.path.empty();
@@ -70,7 +75,7 @@ TEST(RandomScene, HundredSeedsHaveEverything) {
   EXPECT_EQ(effects.size(), std::variant_size_v<EffectDescription>);
   EXPECT_EQ(shapes.size(), std::variant_size_v<decltype(ObstacleDescription::shape)>);
   EXPECT_EQ(integrators.size(), std::variant_size_v<IntegratorDescription>);
-  for (const int drawn : {paths, bodies, gusts, eddies, hands, switches}) EXPECT_GT(drawn, 5);
+  for (const int drawn : {paths, bodies, gusts, eddies, hands, switches, bags, gas}) EXPECT_GT(drawn, 5);
 }
 
 TEST(RandomScene, IsASceneFile) {

@@ -33,6 +33,7 @@ json json_of(const ClothDescription& cloth) {
           {"stiffening", material.limit.stiffening}}}}},
       {"discretization", cloth.discretization == Discretization::paper ? "paper" : "continuum"},
       {"pins", json::array()}};
+  if (cloth.sewn) made["sewn"] = true;
   if (cloth.nodes.empty()) {
     made["position"] = json_of(cloth.position);
     made["orientation"] = {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}};
@@ -100,7 +101,11 @@ struct EffectWriter {
     return {{"thickness", e.thickness}, {"friction", e.friction}};
   }
   json operator()(const TearingEffect& e) const { return {{"strength", {e.warp, e.weft}}}; }
-  json operator()(const InflationEffect& e) const { return {{"pressure", e.pressure}}; }
+  json operator()(const InflationEffect& e) const {
+    json made = {{"pressure", e.pressure}};
+    if (e.volume) made.update({{"volume", *e.volume}, {"fill_time", e.fill_time}});
+    return made;
+  }
 };
 
 struct IntegratorWriter {

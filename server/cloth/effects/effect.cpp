@@ -17,7 +17,10 @@ struct EffectMaker {
   Made operator()(const DampingEffect& e) const { return std::make_unique<Damping<Real>>(e); }
   Made operator()(const PaperWindEffect& e) const { return std::make_unique<PaperWind<Real>>(e); }
   Made operator()(const AerodynamicsEffect& e) const { return std::make_unique<Aerodynamics<Real>>(e); }
-  Made operator()(const InflationEffect& e) const { return std::make_unique<Inflation<Real>>(e); }
+  Made operator()(const InflationEffect& e) const {
+    if (e.volume) return nullptr;  // Gas, which each integrator takes in its own way
+    return std::make_unique<Inflation<Real>>(e);
+  }
   // The sheet's own affair: Springs and Plate, which each integrator takes in its own way.
   Made operator()(const StrainDampingEffect&) const { return nullptr; }
   Made operator()(const PlateBendingEffect&) const { return nullptr; }

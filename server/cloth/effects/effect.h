@@ -77,7 +77,7 @@ extern template class Effect<double>;
 
 /// The effects of one cloth, made once at load; an absent effect has no object here, no branch, no memory.
 /// Those that belong to the sheet itself, strain_damping, strain_limit, plate_bending and tearing, are left
-/// to Springs, Plate and Cloth, cloth_contact to the simulation.
+/// to Springs, Plate and Cloth, and so is gas that is shut in, cloth_contact to the simulation.
 template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions);
 

@@ -58,8 +58,8 @@ bool needs_blocks(const Forces<Real>& forces) {
 }  // namespace
 
 template <class Real>
-Implicit<Real>::State::State(const Grid& grid, bool has_bending, const Plate<Real>* plate)
-    : system(grid, has_bending, plate),
+Implicit<Real>::State::State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn)
+    : system(grid, has_bending, plate, sewn),
       solver(grid),
       numbers(grid, 2),
       vectors(grid, 24),
@@ -112,6 +112,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
+    if (forces.seam != nullptr) forces.seam->join(particles);
     end_substep(particles, contact, h);
   }
   report.sound = state_->sound;
@@ -122,7 +123,7 @@ template <class Real>
 void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
-    state_.emplace(grid, forces.springs->has_bending(), forces.plate);
+    state_.emplace(grid, forces.springs->has_bending(), forces.plate, forces.seam != nullptr);
     state_->slow = kSlow * extent(forces.springs->families(), grid);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
@@ -133,6 +134,7 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   }
   if (state_->soft) forces.springs = &*state_->soft;
   if (forces.layers == nullptr) state_->system.couplings().clear();
+  if (forces.gas == nullptr) state_->system.set_rank_one(0, {});
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
@@ -178,6 +180,10 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   forces.springs->linearise(grid, s.position, finest.matrix.links, s.h);
   forces.sum(particles, s.force);
   if (forces.springs->damping_time() > 0) add_damping(particles, forces);
+  if (forces.gas != nullptr) {
+    forces.gas->add_force(particles, *forces.seam, forces.context.time, s.force);
+    s.system.set_rank_one(forces.gas->stiffness(), kernels::components(forces.gas->gradient()));
+  }
   std::fill_n(finest.diagonal(), count, Real(0));
   const bool blocks = !s.contacts.empty() || needs_blocks(forces);
   finest.use_blocks(blocks);
@@ -201,6 +207,7 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   if (forces.layers != nullptr) {
     forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
   }
+  if (forces.seam != nullptr) forces.seam->average(s.b);
   s.system.prepare();
 }
 
@@ -341,14 +348,19 @@ auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -
   const double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
   if (share < 1) scale_change(share);
   const double left_over = (1 - share) * (1 - share) * decrease;
-  const ChangeReport report = model_change(*forces.springs, decrease - left_over);
+  const ChangeReport report = model_change(forces, decrease - left_over);
   return {report.brought_in, std::max(report.error, left_over), report.largest};
 }
 
 template <class Real>
-auto Implicit<Real>::model_change(const Springs<Real>& springs, double decrease) const -> ChangeReport {
-  const kernels::SpringModelError error =
-      springs.model_error(state_->system.grid(), state_->position, state_->change);
+auto Implicit<Real>::model_change(const Forces<Real>& forces, double decrease) const -> ChangeReport {
+  kernels::SpringModelError error =
+      forces.springs->model_error(state_->system.grid(), state_->position, state_->change);
+  if (forces.gas != nullptr) {
+    const double gas = forces.gas->model_error(state_->position, state_->change);
+    error.sum += gas;
+    error.magnitude += std::abs(gas);
+  }
   return {error.sum - decrease, error.magnitude, error.largest};
 }
 
@@ -357,7 +369,7 @@ auto Implicit<Real>::searched_change(const Forces<Real>& forces, double decrease
   const kernels::Components<Real> change = state_->change;
   for (double share = 1; share > kSmallestShare; share /= 2) {
     // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = model_change(*forces.springs, share * (2 - share) * decrease);
+    const ChangeReport report = model_change(forces, share * (2 - share) * decrease);
     if (report.brought_in <= 0) return report;
     scale_change(0.5);
   }

@@ -43,7 +43,7 @@ class Implicit final : public Integrator<Real> {
  private:
   /// All that lives on one grid.
   struct State {
-    State(const Grid& grid, bool has_bending, const Plate<Real>* plate);
+    State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn);
 
     Multigrid<Real> system;
     ConjugateGradients<Real> solver;
@@ -79,9 +79,10 @@ class Implicit final : public Integrator<Real> {
   };
   struct ChangeReport {
     double brought_in = 0;  ///< energy, J
-    double error = 0;       ///< how far the springs' linearisation is off, or what is left to gain, J
-    double largest = 0;     ///< of that, in one spring, J
-    bool taken = true;      ///< not dropped
+    /// How far the springs' and the gas's linearisation is off, or what is left to gain, J.
+    double error = 0;
+    double largest = 0;  ///< of that, in one spring, J
+    bool taken = true;   ///< not dropped
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
   using Change = ChangeReport (Implicit::*)(const Forces<Real>& forces, double decrease);
@@ -101,7 +102,7 @@ class Implicit final : public Integrator<Real> {
   ChangeReport whole_change(const Forces<Real>& forces, double decrease);
   ChangeReport searched_change(const Forces<Real>& forces, double decrease);
   /// Of the change as it is.
-  ChangeReport model_change(const Springs<Real>& springs, double decrease) const;
+  ChangeReport model_change(const Forces<Real>& forces, double decrease) const;
   void scale_change(double share);
   void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
 

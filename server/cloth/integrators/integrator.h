@@ -3,9 +3,11 @@
 
 #include "cloth/contact/contact.h"
 #include "cloth/effects/effect.h"
+#include "cloth/effects/gas.h"
 #include "cloth/layers/layer_contacts.h"
 #include "cloth/pins.h"
 #include "cloth/plate.h"
+#include "cloth/seam.h"
 #include "cloth/springs.h"
 
 namespace weft {
@@ -19,6 +21,8 @@ struct Forces {
   const Pins<Real>* pins = nullptr;       ///< if any of them moves
   const Plate<Real>* plate = nullptr;     ///< if the scene bends plates
   LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
+  const Seam<Real>* seam = nullptr;       ///< of a sewn cloth
+  Gas<Real>* gas = nullptr;               ///< if it is shut in it
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {
@@ -29,6 +33,13 @@ struct Forces {
   template <class Visit>
   void for_each_pin_way(double begin, double end, Visit visit) const {
     if (pins != nullptr) pins->for_each_way(begin, end, visit);
+  }
+
+  /// Explicit methods: ends a substep of h seconds to `time` of a sewn cloth, by its seam and then its gas,
+  /// whose volume an open seam would falsify.
+  void close(Particles<Real>& particles, double time, double h) const {
+    if (seam != nullptr) seam->join(particles);
+    if (gas != nullptr) gas->push(particles, *seam, time, h);
   }
 
   /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N. The springs' damping, which

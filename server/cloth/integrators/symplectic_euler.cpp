@@ -74,11 +74,13 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
       forces.springs->add_limit_damping(particles.position, particles.velocity, kLimitDamping * h, force_);
     }
     update(particles, force_, h);
+    forces.close(particles, time + (s + 1) * h, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (forces.layers != nullptr) forces.layers->resolve(particles, Substep::of(s, report.substeps, dt));
     if (contact == nullptr) continue;
     report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
+    if (forces.seam != nullptr) forces.seam->join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;

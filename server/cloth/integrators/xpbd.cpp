@@ -44,6 +44,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     const bool last = s + 1 == report.substeps;
     if (last) particles.acceleration = particles.velocity;
     substep(particles, forces, force_share, h);
+    forces.close(particles, time + (s + 1) * h, h);
     if (last) make_acceleration(particles, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
@@ -51,6 +52,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     if (contact == nullptr) continue;
     report.nodes_in_contact =
         contact->resolve(particles, solids, Substep::of(s, report.substeps, dt), nullptr, &rounded_off_);
+    if (forces.seam != nullptr) forces.seam->join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;

@@ -1,6 +1,7 @@
 #include "cloth/solver/coarse_solver.h"
 
 #include <Eigen/SparseCholesky>
+#include <utility>
 
 namespace weft {
 
@@ -12,9 +13,21 @@ struct CoarseSolver<Real>::Impl {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
   Eigen::VectorXd right_hand_side, solution;
   std::vector<char> free;
+  std::vector<int> unknowns;  ///< by node: the row of its first component; two that are sewn share it
+  std::vector<int> unused;    ///< of the right nodes of pairs
   bool analysed = false;
 
-  int unknown(int r, int c) const { return 3 * (r * grid.cols + c); }
+  Impl(const Grid& of, const Seam<Real>* seam) : grid(of), unknowns(of.size()) {
+    for (int r = 0; r < grid.rows; ++r) {
+      for (int c = 0; c < grid.cols; ++c) unknowns[grid.index(r, c)] = 3 * (r * grid.cols + c);
+    }
+    if (seam == nullptr) return;
+    for (const auto& [left, right] : seam->pairs()) {
+      unused.push_back(std::exchange(unknowns[right], unknowns[left]));
+    }
+  }
+
+  int unknown(int r, int c) const { return unknowns[grid.index(r, c)]; }
 
   void add(int row, int col, const Eigen::Matrix3d& block) {
     for (int i = 0; i < 3; ++i) {
@@ -59,8 +72,8 @@ struct CoarseSolver<Real>::Impl {
 };
 
 template <class Real>
-CoarseSolver<Real>::CoarseSolver(const Grid& grid) : impl_(std::make_unique<Impl>()) {
-  impl_->grid = grid;
+CoarseSolver<Real>::CoarseSolver(const Grid& grid, const Seam<Real>* seam)
+    : impl_(std::make_unique<Impl>(grid, seam)) {
   impl_->matrix.resize(3 * grid.nodes(), 3 * grid.nodes());
   impl_->right_hand_side.setZero(3 * grid.nodes());
 }
@@ -88,6 +101,7 @@ void CoarseSolver<Real>::factorise(const Matrix& m, const Plate<Real>* plate) {
       s.add_link(m.links.rising, m, r, c, 1, -1);
     }
   }
+  for (const int row : s.unused) s.add(row, row, Eigen::Matrix3d::Identity());
   if (plate != nullptr) s.add_plate(*plate, m);
   s.matrix.setFromTriplets(s.entries.begin(), s.entries.end());
   if (!s.analysed) s.factors.analyzePattern(s.matrix);
@@ -105,11 +119,12 @@ void CoarseSolver<Real>::solve(kernels::Components<const Real> b, kernels::Compo
       for (int c = 0; c < s.grid.cols; ++c) visit(s.unknown(r, c), s.grid.index(r, c));
     }
   };
+  s.right_hand_side.setZero();
   for_each_node([&](int row, std::size_t i) {
     const double free = s.free[i];
-    s.right_hand_side[row] = free * double(b.x[i]);
-    s.right_hand_side[row + 1] = free * double(b.y[i]);
-    s.right_hand_side[row + 2] = free * double(b.z[i]);
+    s.right_hand_side[row] += free * double(b.x[i]);
+    s.right_hand_side[row + 1] += free * double(b.y[i]);
+    s.right_hand_side[row + 2] += free * double(b.z[i]);
   });
   s.solution = s.factors.solve(s.right_hand_side);
   for_each_node([&](int row, std::size_t i) {

@@ -3,6 +3,7 @@
 
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/plate.h"
+#include "cloth/seam.h"
 
 namespace weft {
 
@@ -13,7 +14,8 @@ class CoarseSolver {
  public:
   using Matrix = kernels::LinkMatrix<Real, kernels::Blocks<Real>>;
 
-  explicit CoarseSolver(const Grid& grid);
+  /// With `seam`, or nullptr: the nodes of its pairs are one unknown, pulled at by both's b.
+  CoarseSolver(const Grid& grid, const Seam<Real>* seam);
   ~CoarseSolver();
   CoarseSolver(CoarseSolver&&) noexcept;
   CoarseSolver& operator=(CoarseSolver&&) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/kernels/node_kernels.h"
 #include "cloth/kernels/transfer_kernels.h"
 
 namespace weft {
@@ -30,6 +31,29 @@ void bind(NodeArrays<Real>& links, kernels::Blocks<Real>& family, int index) {
 bool can_coarsen(const Grid& grid) {
   return grid.rows % 2 == 1 && grid.cols % 2 == 1 && grid.rows >= 5 && grid.cols >= 5;
 }
+/// Gives both nodes of each pair the inverse of the mean of the two matrices whose inverses are there.
+template <class Real>
+void invert_means(const Seam<Real>& seam, const kernels::Blocks<Real>& inverse) {
+  const auto block = [&](std::size_t i) {
+    const auto xy = double(inverse.xy[i]), xz = double(inverse.xz[i]), yz = double(inverse.yz[i]);
+    return Eigen::Matrix3d{
+        {double(inverse.xx[i]), xy, xz}, {xy, double(inverse.yy[i]), yz}, {xz, yz, double(inverse.zz[i])}};
+  };
+  for (const auto& [left, right] : seam.pairs()) {
+    const Eigen::Matrix3d one = block(left), two = block(right);
+    if (one.trace() == 0) continue;  // they are fixed
+    const Eigen::Matrix3d both = 2 * one * (one + two).inverse() * two;
+    for (const std::size_t i : {left, right}) {
+      inverse.xx[i] = static_cast<Real>(both(0, 0));
+      inverse.xy[i] = static_cast<Real>(both(0, 1));
+      inverse.xz[i] = static_cast<Real>(both(0, 2));
+      inverse.yy[i] = static_cast<Real>(both(1, 1));
+      inverse.yz[i] = static_cast<Real>(both(1, 2));
+      inverse.zz[i] = static_cast<Real>(both(2, 2));
+    }
+  }
+}
+
 Grid coarser(const Grid& grid) { return Grid::with_nodes((grid.rows + 1) / 2, (grid.cols + 1) / 2); }
 
 }  // namespace
@@ -105,7 +129,7 @@ std::size_t Multigrid<Real>::work_size(const Grid& finest, const Plate<Real>* pl
 }
 
 template <class Real>
-Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate)
+Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate, bool sewn)
     : finest_(finest, has_bending, plate),
       work_size_(work_size(finest, plate)),
       work_(static_cast<std::size_t>(finest_.bands.count()) * work_size_, Real(0)) {
@@ -115,12 +139,16 @@ Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Rea
     if (coarse_plate) coarse_plate = coarse_plate->coarser();
     coarse_.emplace_back(grid, false, coarse_plate ? &*coarse_plate : nullptr);
   }
-  if (!coarse_.empty()) coarsest_.emplace(coarse_.back().matrix.grid);
+  if (sewn) {
+    seams_.emplace_back(finest);
+    for (const Coarse& level : coarse_) seams_.emplace_back(level.matrix.grid);
+  }
+  if (!coarse_.empty()) coarsest_.emplace(coarse_.back().matrix.grid, sewn ? &seams_.back() : nullptr);
 }
 
 template <class Real>
 void Multigrid<Real>::prepare() {
-  prepare_level(finest_);
+  prepare_level(finest_, 0);
   if (!couplings_.empty()) couplings_.prepare(kDamping, finest_.inverse);
   for (std::size_t i = 0; i < coarse_.size(); ++i) {
     if (i == 0) {
@@ -128,7 +156,7 @@ void Multigrid<Real>::prepare() {
     } else {
       coarsen(coarse_[i - 1], coarse_[i]);
     }
-    if (i + 1 < coarse_.size()) prepare_level(coarse_[i]);
+    if (i + 1 < coarse_.size()) prepare_level(coarse_[i], i + 1);
   }
   if (!coarsest_) return;
   const auto& plate = coarse_.back().plate;
@@ -137,12 +165,13 @@ void Multigrid<Real>::prepare() {
 
 template <class Real>
 template <class Fine>
-void Multigrid<Real>::prepare_level(Fine& level) {
+void Multigrid<Real>::prepare_level(Fine& level, std::size_t index) {
   level.weigh_plate();
   const auto smoothed = level.smoothed();
   level.bands.for_each([&](kernels::RowRange rows, int) {
     kernels::invert_diagonal(smoothed, static_cast<Real>(kDamping), level.inverse, rows);
   });
+  if (!seams_.empty()) invert_means(seams_[index], level.inverse);
 }
 
 template <class Real>
@@ -184,7 +213,19 @@ double Multigrid<Real>::multiply(kernels::Components<const Real> x, kernels::Com
   });
   if (!bodies_.empty()) product += bodies_.multiply(x, y);
   if (!couplings_.empty()) product += couplings_.multiply(x, y);
+  if (rank_one_ > 0) {
+    const double along = kernels::dot<Real>(rank_one_by_, x, grid());
+    kernels::add_scaled(y, rank_one_by_, static_cast<Real>(rank_one_ * along), grid().size());
+    product += rank_one_ * along * along;
+  }
+  if (!seams_.empty()) seams_[0].average(y);
   return product;
+}
+
+template <class Real>
+void Multigrid<Real>::set_rank_one(double stiffness, kernels::Components<const Real> vector) {
+  rank_one_ = stiffness;
+  rank_one_by_ = vector;
 }
 
 template <class Real>
@@ -216,6 +257,7 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
       kernels::restrict_sum<Real>(grid, level.y.y, coarse_grid, coarse.b.y, rows, work(band));
       kernels::restrict_sum<Real>(grid, level.y.z, coarse_grid, coarse.b.z, rows, work(band));
     });
+    if (!seams_.empty()) seams_[next + 1].average(coarse.b);
     const kernels::Components<Real> correction = coarse.y;
     if (next + 1 < coarse_.size()) {
       cycle(coarse, next + 1, coarse.b, correction);
@@ -229,14 +271,16 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
       kernels::prolong_add<Real>(coarse_grid, correction.z, grid, free, level.x.z, rows, work(band));
     });
   }
-  const double product = level.bands.sum([&](kernels::RowRange rows, int band) {
+  double product = level.bands.sum([&](kernels::RowRange rows, int band) {
     const double links =
         kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
     if (!level.cycles_plate) return links;
     return links + kernels::relax_plate<Real>(level.plate->stencils(), grid, level.inverse, level.x, b, z,
                                               rows, work(band));
   });
-  return coupled ? product + couplings_.relax(level.x, b, z) : product;
+  if (coupled) product += couplings_.relax(level.x, b, z);
+  if (!seams_.empty()) seams_[next].average(z);
+  return product;
 }
 
 template class Multigrid<float>;

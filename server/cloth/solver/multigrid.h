@@ -3,6 +3,7 @@
 
 #include "cloth/bands.h"
 #include "cloth/plate.h"
+#include "cloth/seam.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"
@@ -43,11 +44,15 @@ struct GridLevel {
 /// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
 /// inertia outweighs it at every node. Bodies may hang on the nodes: that is part of A, but not of the
 /// preconditioner. Nodes may hang on one another: that is part of the cycle on the finest grid alone.
+///
+/// Where a cloth is sewn the nodes of its seam's pairs move as one, on every level: x has them equal, and b
+/// the mean of what pulls at the two. With P what makes them so (Seam::average) the system is P A P x = b; a
+/// pair is smoothed by the mean of its two diagonal blocks.
 template <class Real>
 class Multigrid {
  public:
   /// For grids with an even number of cells on both sides; coarsens while that holds.
-  Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate = nullptr);
+  Multigrid(const Grid& finest, bool has_bending, const Plate<Real>* plate = nullptr, bool sewn = false);
 
   const Grid& grid() const { return finest_.matrix.grid; }
   int levels() const { return 1 + static_cast<int>(coarse_.size()); }
@@ -57,6 +62,9 @@ class Multigrid {
   GridLevel<Real, kernels::SpringLinks<Real>>& finest() { return finest_; }
   AttachedBodies<Real>& bodies() { return bodies_; }
   NodeCouplings<Real>& couplings() { return couplings_; }
+  /// A has the part stiffness g g^T, stiffness >= 0, N/m5, of a vector g, m2, that is the caller's, 0 at
+  /// fixed nodes and the same at nodes that are one. Part of A, but not of its preconditioner.
+  void set_rank_one(double stiffness, kernels::Components<const Real> vector);
   /// Builds the coarse matrices and all that a cycle needs.
   void prepare();
 
@@ -71,8 +79,9 @@ class Multigrid {
   static std::size_t work_size(const Grid& finest, const Plate<Real>* plate);
   /// Work space of a band of any level.
   Real* work(int band) { return work_.data() + static_cast<std::size_t>(band) * work_size_; }
+  /// Levels are counted from the finest, 0.
   template <class Fine>
-  void prepare_level(Fine& level);
+  void prepare_level(Fine& level, std::size_t index);
   template <class Fine>
   void coarsen(Fine& fine, Coarse& coarse);
   template <class Links>
@@ -82,7 +91,10 @@ class Multigrid {
   GridLevel<Real, kernels::SpringLinks<Real>> finest_;
   AttachedBodies<Real> bodies_;
   NodeCouplings<Real> couplings_;
-  std::vector<Coarse> coarse_;  ///< fine to coarse
+  double rank_one_ = 0;                            ///< its stiffness, N/m5
+  kernels::Components<const Real> rank_one_by_{};  ///< its vector, m2
+  std::vector<Coarse> coarse_;                     ///< fine to coarse
+  std::vector<Seam<Real>> seams_;  ///< of all levels, fine to coarse; none where the cloth is not sewn
   std::optional<CoarseSolver<Real>> coarsest_;
   std::size_t work_size_;  ///< of a band
   std::vector<Real, AlignedAllocator<Real>> work_;

@@ -48,8 +48,8 @@ TEST(Settle, TakesOutWhatAMergePutsIntoTheSpringsAcrossAFold) {
   Merged merged;
   EXPECT_NEAR(merged.strain(), 1 - std::cos(std::asin(0.0625 / 0.4)), 1e-12);
   const double before = merged.springs.energy(merged.sheet.position);
-  settle<double>(merged.sheet, Unsettled::by_level, merged.springs, nullptr, merged.cloth, nullptr, {},
-                 1.0 / 60);
+  settle<double>(merged.sheet, Unsettled::by_level,
+                 {.springs = &merged.springs, .context = {.cloth = &merged.cloth}}, nullptr, {}, 1.0 / 60);
   EXPECT_LT(merged.strain(), 0.1 * (1 - std::cos(std::asin(0.0625 / 0.4))));
   EXPECT_LT(merged.springs.energy(merged.sheet.position), 0.1 * before);
   each_node(merged.sheet.grid(),
@@ -62,7 +62,8 @@ TEST(Settle, LeavesAFlatSheetWhereItIs) {
   const Particles<double> before = sheet;
   const ClothDescription cloth;
   const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
-  settle<double>(sheet, Unsettled::by_level, springs, nullptr, cloth, nullptr, {}, 1.0 / 60);
+  settle<double>(sheet, Unsettled::by_level, {.springs = &springs, .context = {.cloth = &cloth}}, nullptr, {},
+                 1.0 / 60);
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_LT((sheet.position_at(r, c) - before.position_at(r, c)).norm(), 1e-12);
   });
@@ -81,7 +82,8 @@ TEST(Settle, LetsNodesOutOfABallPutOntoThemWithoutMotion) {
   EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));  // it was there before
   ball.just_put = true;
   EXPECT_TRUE(is_put_onto(sheet, contact, {ball}));
-  settle<double>(sheet, Unsettled::by_solid, springs, nullptr, cloth, &contact, {ball}, 1.0 / 60);
+  settle<double>(sheet, Unsettled::by_solid, {.springs = &springs, .context = {.cloth = &cloth}}, &contact,
+                 {ball}, 1.0 / 60);
   EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_GE((sheet.position_at(r, c) - ball.position).norm(), 0.3);

@@ -206,6 +206,15 @@ TEST(Reader, StrengthIsOneNumberOrTwo) {
   EXPECT_EQ(tearing(R"(, "strength": [300, 200.5])").weft, 200.5);
 }
 
+TEST(Reader, ReadsASewnClothAndItsGas) {
+  const SimulationDescription simulation = read_good("sewn").simulation;
+  EXPECT_TRUE(simulation.cloths[0].sewn);
+  EXPECT_EQ(std::get<InflationEffect>(simulation.effects[0]), (InflationEffect{-250, 0.125, 0.5}));
+  const SimulationDescription other = read_good("everything").simulation;
+  EXPECT_FALSE(other.cloths[0].sewn);
+  EXPECT_FALSE(std::get<InflationEffect>(other.effects[8]).volume);
+}
+
 TEST(Reader, EffectsWindAndStepping) {
   const SimulationDescription simulation = read_good("everything").simulation;
   ASSERT_EQ(simulation.effects.size(), 9u);
