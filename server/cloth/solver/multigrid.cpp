@@ -149,7 +149,6 @@ Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Rea
 template <class Real>
 void Multigrid<Real>::prepare() {
   prepare_level(finest_, 0);
-  if (!couplings_.empty()) couplings_.prepare(kDamping, finest_.inverse);
   for (std::size_t i = 0; i < coarse_.size(); ++i) {
     if (i == 0) {
       coarsen(finest_, coarse_[0]);
@@ -238,7 +237,6 @@ template <class Links>
 double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
                               kernels::Components<const Real> b, kernels::Components<Real> z) {
   const Grid& grid = level.matrix.grid;
-  const bool coupled = next == 0 && !couplings_.empty();
   level.bands.for_each_stretch([&](std::size_t first, std::size_t count) {
     kernels::apply_blocks(level.inverse + first, b + first, level.x + first, count);
   });
@@ -251,7 +249,6 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
       kernels::subtract_plate<Real>(level.plate->stencils(), grid, level.x, level.matrix.free, level.y, rows,
                                     work(band));
     });
-    if (coupled) couplings_.subtract(level.x, level.y);
     coarse.bands.for_each([&](kernels::RowRange rows, int band) {
       kernels::restrict_sum<Real>(grid, level.y.x, coarse_grid, coarse.b.x, rows, work(band));
       kernels::restrict_sum<Real>(grid, level.y.y, coarse_grid, coarse.b.y, rows, work(band));
@@ -271,14 +268,13 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
       kernels::prolong_add<Real>(coarse_grid, correction.z, grid, free, level.x.z, rows, work(band));
     });
   }
-  double product = level.bands.sum([&](kernels::RowRange rows, int band) {
+  const double product = level.bands.sum([&](kernels::RowRange rows, int band) {
     const double links =
         kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
     if (!level.cycles_plate) return links;
     return links + kernels::relax_plate<Real>(level.plate->stencils(), grid, level.inverse, level.x, b, z,
                                               rows, work(band));
   });
-  if (coupled) product += couplings_.relax(level.x, b, z);
   if (!seams_.empty()) seams_[next].average(z);
   return product;
 }

@@ -42,8 +42,8 @@ struct GridLevel {
 /// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
 /// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
 /// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
-/// inertia outweighs it at every node. Bodies may hang on the nodes: that is part of A, but not of the
-/// preconditioner. Nodes may hang on one another: that is part of the cycle on the finest grid alone.
+/// inertia outweighs it at every node. Bodies may hang on the nodes, and nodes on one another: that is part
+/// of A, but not of the preconditioner.
 ///
 /// Where a cloth is sewn the nodes of its seam's pairs move as one, on every level: x has them equal, and b
 /// the mean of what pulls at the two. With P what makes them so (Seam::average) the system is P A P x = b; a
