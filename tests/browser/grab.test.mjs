@@ -112,15 +112,17 @@ test('double click with Shift pins the cloth there, again unpins it', async () =
   await pins(0);
   await doubleClick();
   await pins(1);
-  // The node nearest to it stays where it is while the rest is lifted, by less than the 0.35 m that are between them.
+  // The node nearest to it stays where it is, but for a quantum of another frame's, while the rest is lifted, by less than the
+  // 0.35 m that are between them.
   const held = await place({u: 0.25, v: 0.75});
   await page.mouse.move(...await onPage(await place({u: 0.5, v: 0.5})));
   await page.mouse.down();
   await page.mouse.move(...await onPage([0, 0.3, 0]), {steps: 6});
   await rises(0.2);
-  assert.deepEqual(await place({u: 0.25, v: 0.75}), held);
+  const still = await place({u: 0.25, v: 0.75});
   await page.mouse.up();
   await page.keyboard.up('Shift');
+  assert.ok(Math.hypot(...still.map((value, axis) => value - held[axis])) < kNear, `${still} instead of ${held}`);
 });
 
 test('the hand tool does it with a finger, without Shift', async () => {
