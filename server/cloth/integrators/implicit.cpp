@@ -113,6 +113,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
       contact->let_slide_off(contacts.not_held());
+      contact->trust(contacts.kept_aside());
       report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
@@ -321,7 +322,10 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
   const auto& [contact, solids, part] = surroundings_;
   if (contact == nullptr) return false;
   State& s = *state_;
-  if (!s.contacts.hold_inside(contact->inside(particles, *solids, part), particles, *solids, s.move,
+  AttachedBodies<Real>& bodies = s.system.bodies();
+  const std::vector<Solid> bent = bodies.empty() ? std::vector<Solid>{} : s.contacts.bent(*solids, bodies);
+  const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
+  if (!s.contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
                               springs.node_stiffness(), missed))
     return false;
   s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
