@@ -156,7 +156,7 @@ class Commands {
   /// Up and down through the cloth's levels.
   void change_level(long step) {
     const ClothDescription& cloth = scene_.cloths[0];
-    const int levels = cloth.max_level - cloth.min_level;
+    const long levels = cloth.max_level - cloth.min_level;
     const auto period = static_cast<long>(1 + scene_.seed % 16);
     if (levels == 0 || step % period != 0) return;
     const long turn = step / period % (2 * levels);
