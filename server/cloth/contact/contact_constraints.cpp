@@ -23,6 +23,9 @@ const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solids) {
                        [&](const Solid& each) { return each.id == touch.collider; });
 }
 
+/// The part of v that is tangential.
+Vec3 along(const Vec3& normal, const Vec3& v) { return v - v.dot(normal) * normal; }
+
 /// along n n^T + across (I - n n^T).
 Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
   const double both = along - across;
@@ -118,20 +121,28 @@ template <class Real>
 auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, const Surface& surface,
                                        const Vec3& place, const Vec3& way) const -> Constraint {
   const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
-  const double force = same != last_.end() && same->touch == touch ? same->force : 0.0;
+  const bool held = same != last_.end() && same->touch == touch;
+  const double holds = held ? solid.friction * same->force : 0.0;
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
-  const double sliding = (slip - slip.dot(normal) * normal).norm();
-  return {touch,
-          std::nullopt,
-          Vec3(0, 0, 0),
-          normal,
-          normal.dot(way) - surface.distance,
-          solid.depth(place, substep_.from),
-          move,
-          solid.friction * force,
-          sliding,
-          inner_radius(solid.shape)};
+  Constraint made{touch,
+                  std::nullopt,
+                  Vec3(0, 0, 0),
+                  normal,
+                  normal.dot(way) - surface.distance,
+                  solid.depth(place, substep_.from),
+                  move,
+                  holds,
+                  along(normal, slip).norm(),
+                  inner_radius(solid.shape)};
+  if (held) made.grip = along(normal, same->grip);
+  if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
+  return made;
+}
+
+template <class Real>
+Vec3 ContactConstraints<Real>::friction(const Constraint& c, const Vec3& moved) {
+  return c.grip + c.friction_stiffness * along(c.normal, c.solid_move - moved);
 }
 
 /// This solid, or one that faces it, holds the node.
@@ -263,13 +274,13 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
     if (c.released) continue;
     const std::size_t i = c.touch.node;
     c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
-    const Vec3 moved = move_of(c, move, bodies), slip = c.solid_move - moved;
+    const Vec3 moved = move_of(c, move, bodies);
     // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
-    c.friction_stiffness = c.holds < c.stiffness * c.sliding ? c.holds / c.sliding : c.stiffness;
-    if (c.holds == 0) c.friction_stiffness = 0;
+    const bool slides = c.holds < c.stiffness * c.sliding;
+    c.friction_stiffness = slides ? c.holds / c.sliding : c.holds > 0 ? c.stiffness : 0;
+    if (slides) c.grip.setZero();
     const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
-    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal +
-                       c.friction_stiffness * (slip - slip.dot(c.normal) * c.normal);
+    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + friction(c, moved);
     add_block(blocks, i, stiffness);
     add(b, i, force);
     if (c.body) bodies.attach(*c.body, i, c.arm, stiffness, force);
@@ -310,7 +321,9 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
   pressed_.clear();
   kept_aside_.clear();
   for (Constraint& c : constraints_) {
-    const double depth = c.distance - c.normal.dot(move_of(c, move, bodies));
+    const Vec3 moved = move_of(c, move, bodies);
+    const double depth = c.distance - c.normal.dot(moved);
+    c.grip = friction(c, moved);
     c.force = c.released ? 0 : std::max(0.0, c.stiffness * depth);
     if (c.body && c.force > 0) pressed_.push_back(c.touch);
     if (c.body && solid_of(c.touch, solids).yields_turning()) kept_aside_.push_back(c.touch);

@@ -11,8 +11,9 @@ namespace weft {
 /// Contacts as a part of an implicit step's linear system. A node that touches a solid or will in the step is
 /// held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along with the
 /// solid by Coulomb friction: a force of at most friction times the normal force, that of the step before. A
-/// spring that turns out to pull is taken away. What little the others give, and nodes that were not
-/// expected, Contact::resolve puts right after the step.
+/// spring that turns out to pull is taken away. A node that sticks goes on with the force that held it: found
+/// anew in each step it would have to slip for it each time, and a drape would creep. What little the others
+/// give, and nodes that were not expected, Contact::resolve puts right after the step.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
 /// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
@@ -97,7 +98,10 @@ class ContactConstraints {
     double friction_stiffness = 0;  ///< N/m
     double force = 0;               ///< along the normal, N
     bool released = false;
+    Vec3 grip{0, 0, 0};  ///< of static friction when the substep begins; after finish, when it ends, N
   };
+  /// The force along the surface at `moved`, N.
+  static Vec3 friction(const Constraint& c, const Vec3& moved);
   static bool is_before(const Constraint& c, const Touch& touch);
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
