@@ -167,7 +167,7 @@ struct BallDescription {
   Vec3 velocity{0.0, 0.0, 0.0};
   Motion motion = Motion::kinematic;
   double mass = 1.0;           ///< kg, > 0, dynamic balls only
-  double friction = 0.0;       ///< Coulomb's coefficient >= 0, with cloth; with another solid the mean; 0 in paper
+  double friction = 0.0;       ///< Coulomb's coefficient, >= 0; between two solids the geometric mean
   std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
   bool loop = false;           ///< as a pin's
 };

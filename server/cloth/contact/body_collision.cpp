@@ -189,7 +189,7 @@ class Meeting {
   /// little within that is the one it met.
   Surface surface_at(const PlacedShape& shape, const Vec3& place, const Vec3& outwards) const {
     constexpr double kInwards = 0.2;
-    const Surface nearest = shape.surface(place);
+    Surface nearest = shape.surface(place);
     if (nearest.normal.dot(outwards) <= 0) return nearest;
     const Vec3 back = kInwards * margin_ * outwards;
     const Surface met = shape.surface(place - back);
@@ -297,11 +297,12 @@ struct BodyCollision::Impl {
 
   void look_at(Meeting& meeting) {
     const Solid &a = meeting.a(), &b = meeting.b();
-    if (is_half_space(b)) {
-      meeting.look_at_corners(false);
-    } else if (meeting.fast() && meeting.sweep()) {
-      // Where they would end without it says nothing.
-    } else if (is_ball(a)) {
+    const bool met_on_its_way = !is_half_space(b) && meeting.fast() && meeting.sweep();
+    if (met_on_its_way) {  // where it would end without that says nothing
+      meeting.thin_out();
+      return;
+    }
+    if (is_half_space(b) || is_ball(a)) {
       meeting.look_at_corners(false);
     } else if (is_ball(b)) {
       meeting.look_at_corners(true);
