@@ -86,6 +86,8 @@ void advance(Obstacle& obstacle, double time, double dt) {
   }
 }
 
+bool flies(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
+
 template <class Balls>
 auto find_ball(Balls& balls, BallId id) {
   return std::find_if(balls.begin(), balls.end(), [&](const Ball& ball) { return ball.id == id; });
@@ -136,6 +138,7 @@ bool Colliders::move(BallId id, const Vec3& target) {
   const auto ball = find_ball(balls_, id);
   if (ball == balls_.end()) return false;
   ball->motion = BallDescription::Motion::kinematic;
+  ball->spin.setZero();
   ball->path.clear();
   forget_target(id);
   targets_.push_back({id, target, false});
@@ -194,7 +197,7 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
       ball.velocity = (ball.position - ball.start) / dt;
       continue;
     }
-    if (ball.motion == BallDescription::Motion::dynamic) ball.velocity += gravity * dt;
+    if (flies(ball)) ball.velocity += gravity * dt;
     const auto target =
         std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.ball == ball.id; });
     if (target == targets_.end()) {
@@ -209,8 +212,6 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
     }
   }
   stop_bad_balls();
-  solids_.clear();
-  for (const Ball& ball : balls_) solids_.push_back(ball.solid());
   for (Obstacle& obstacle : obstacles_) {
     if (obstacle.flies()) {
       obstacle.body->fly(obstacle.pose, obstacle.solid, gravity, dt);
@@ -218,8 +219,8 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
     } else if (obstacle.mobile) {
       advance(obstacle, time, dt);
     }
-    solids_.push_back(obstacle.solid);
   }
+  gather_solids();
 }
 
 void Colliders::share(ColliderId id, int cloths) {
@@ -243,11 +244,13 @@ void Colliders::push(const std::vector<Solid>& left) {
   }
 }
 
-void Colliders::end_step() {
+bool Colliders::end_step() {
+  bool given = false;
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     Ball& ball = balls_[i];
     ball.just_put = false;
-    if (ball.motion != BallDescription::Motion::dynamic) continue;
+    if (!flies(ball)) continue;
+    given = given || !ball.pushed.isZero(0) || !ball.sped_up.isZero(0);
     ball.position += std::exchange(ball.pushed, Vec3(0, 0, 0));
     ball.velocity += std::exchange(ball.sped_up, Vec3(0, 0, 0));
     solids_[i].position = ball.position;
@@ -256,9 +259,55 @@ void Colliders::end_step() {
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     Obstacle& obstacle = obstacles_[i];
     if (!obstacle.flies()) continue;
-    obstacle.body->take_up(obstacle.pose, solids_[balls_.size() + i]);
+    given = obstacle.body->take_up(obstacle.pose, solids_[balls_.size() + i]) || given;
+    obstacle.body->lead(obstacle.pose, obstacle.solid);
     stop_bad_body(obstacle);
   }
+  return given;
+}
+
+bool Colliders::may_meet() const {
+  return balls_.size() + obstacles_.size() > 1 &&
+         (std::any_of(balls_.begin(), balls_.end(), [](const Ball& ball) { return flies(ball); }) ||
+          std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.flies(); }));
+}
+
+void Colliders::gather_solids() {
+  solids_.clear();
+  for (const Ball& ball : balls_) solids_.push_back(ball.solid());
+  for (const Obstacle& obstacle : obstacles_) solids_.push_back(obstacle.solid);
+}
+
+void Colliders::meet(BodyCollision& collision, double dt) {
+  gather_solids();
+  const std::vector<BodyContact>& contacts = collision.find(solids_, dt);
+  if (contacts.empty()) return;
+  std::vector<MovingBody> bodies;
+  for (const Solid& solid : solids_) {
+    bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});
+  }
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    const Ball& ball = balls_[i];
+    if (!flies(ball)) continue;
+    bodies[i].inverse_inertia.diagonal().setConstant(2.5 / (ball.mass * ball.radius * ball.radius));
+    bodies[i].spin = ball.spin;
+  }
+  resolve(contacts, bodies, dt);
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    Ball& ball = balls_[i];
+    if (!flies(ball)) continue;
+    ball.position += dt * (bodies[i].velocity - ball.velocity) + bodies[i].shift;
+    ball.velocity = bodies[i].velocity;
+    ball.spin = bodies[i].spin;
+  }
+  stop_bad_balls();
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    Obstacle& obstacle = obstacles_[i];
+    if (!obstacle.flies()) continue;
+    obstacle.body->go_on(bodies[balls_.size() + i], obstacle.pose, obstacle.solid, dt);
+    stop_bad_body(obstacle);
+  }
+  gather_solids();
 }
 
 void Colliders::stop_bad_body(Obstacle& obstacle) {
@@ -274,6 +323,7 @@ void Colliders::stop_bad_balls() {
     if (!good(ball.start)) ball.start.setZero();  // it never had a good place
     if (!good(ball.position)) ball.position = ball.start;
     ball.velocity.setZero();
+    ball.spin.setZero();
     ball.path.clear();
     forget_target(ball.id);
     stopped_.push_back(ball.id);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cloth/contact/body_collision.h"
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
 #include "cloth/rigid_body.h"
@@ -27,6 +28,7 @@ struct Ball {
   Vec3 pushed{0, 0, 0};    ///< from its way by the cloths during the step, m; taken up when the step ends
   Vec3 sped_up{0, 0, 0};   ///< the same of its velocity, m/s
   int sharing = 1;         ///< cloths that see a share of its mass in this step
+  Vec3 spin{0, 0, 0};      ///< if dynamic, rad/s: what it rolls on other solids with; cloths see none
   std::vector<Waypoint> path;
   bool loops = false;  ///< the path
 
@@ -85,8 +87,13 @@ class Colliders {
   void share(ColliderId id, int cloths);
   /// How one cloth leaves solids() at the step's end; the order of the calls decides the last bits.
   void push(const std::vector<Solid>& left);
-  /// Dynamic balls and bodies take up what the cloths gave them.
-  void end_step();
+  /// Dynamic balls and bodies take up what the cloths gave them. False if that is nothing.
+  bool end_step();
+  /// There is a dynamic ball or body, and something that it may meet.
+  bool may_meet() const;
+  /// Dynamic balls and bodies stop and shove each other, and stop at what else is in their way, in the step
+  /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
+  void meet(BodyCollision& collision, double dt);
   /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
   /// last good place, at rest and without its path. Single precision, which frames have, still holds it.
   static constexpr double kFarthest = 1e30;
@@ -100,6 +107,7 @@ class Colliders {
     Vec3 position;
     bool reached;
   };
+  void gather_solids();
   void forget_target(BallId id);
   void stop_bad_balls();
   void stop_bad_body(Obstacle& obstacle);

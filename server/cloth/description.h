@@ -160,14 +160,14 @@ struct ClothDescription {
 struct BallDescription {
   enum class Motion {
     kinematic,  ///< goes where it is told (velocity, path, commands); the cloth yields
-    dynamic,    ///< falls under the scene's gravity, is slowed by the cloth
+    dynamic,    ///< falls under the scene's gravity, is slowed by the cloth, lands on what is in its way
   };
   Vec3 position{0.0, 0.0, 0.0};
   double radius = 0.2;  ///< m, > 0
   Vec3 velocity{0.0, 0.0, 0.0};
   Motion motion = Motion::kinematic;
   double mass = 1.0;           ///< kg, > 0, dynamic balls only
-  double friction = 0.0;       ///< Coulomb's coefficient between ball and cloth, >= 0; 0 in the paper
+  double friction = 0.0;       ///< Coulomb's coefficient, >= 0; between two solids the geometric mean
   std::vector<Waypoint> path;  ///< kinematic balls only; overrides position and velocity
   bool loop = false;           ///< as a pin's
 };

@@ -14,6 +14,14 @@ Quaternion turning(const Vec3& turn) {
   return Quaternion(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
 }
 
+/// The shorter way round, about this axis by its length, rad.
+Vec3 turn_between(const Quaternion& from, const Quaternion& to) {
+  Quaternion turn = to * from.conjugate();
+  if (turn.w() < 0) turn.coeffs() *= -1;
+  const Eigen::AngleAxisd angle_axis(turn);
+  return angle_axis.angle() * angle_axis.axis();
+}
+
 /// The pose as it is, the solid there.
 void put(Solid& solid, const Pose& pose) {
   solid.position = pose.position;
@@ -96,12 +104,32 @@ void RigidBody::push(const Solid& solid, const Solid& left) {
   spun_up_ += solid.inverse_inertia.inverse() * (left.spin - solid.spin);
 }
 
-void RigidBody::take_up(Pose& pose, Solid& solid) {
+bool RigidBody::take_up(Pose& pose, Solid& solid) {
+  const bool given = !pushed_.isZero(0) || !sped_up_.isZero(0) || !turned_.isZero(0) || !spun_up_.isZero(0);
   pose.position += std::exchange(pushed_, Vec3(0, 0, 0));
   velocity_ += std::exchange(sped_up_, Vec3(0, 0, 0));
   pose.orientation = (turning(std::exchange(turned_, Vec3(0, 0, 0))) * pose.orientation).normalized();
   turning_ += std::exchange(spun_up_, Vec3(0, 0, 0));
   put(solid, pose);
+  return given;
+}
+
+void RigidBody::lead(const Pose& pose, Solid& solid) const {
+  solid.start = start_.position;
+  solid.velocity = velocity_;
+  solid.spin = spin(pose.orientation);
+  solid.turn = turn_between(start_.orientation, pose.orientation);
+  put(solid, pose);
+}
+
+void RigidBody::go_on(const MovingBody& with, Pose& pose, Solid& solid, double dt) {
+  const Vec3 spun_up = with.spin - solid.spin;
+  pose.position += dt * (with.velocity - velocity_) + with.shift;
+  pose.orientation = (turning(dt * spun_up + with.turn) * pose.orientation).normalized();
+  velocity_ = with.velocity;
+  if (!spun_up.isZero(0)) turning_ += with.inverse_inertia.inverse() * spun_up;
+  lead(pose, solid);
+  solid.spin = with.spin;
 }
 
 bool RigidBody::sound(const Pose& pose, double farthest) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "cloth/contact/body_impulses.h"
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
 
@@ -37,8 +38,13 @@ class RigidBody {
   void share(int cloths, Solid& solid);
   /// A cloth leaves it as `left` that got it as `solid`.
   void push(const Solid& solid, const Solid& left);
-  /// At the step's end: the pose and the solid with what the cloths gave.
-  void take_up(Pose& pose, Solid& solid);
+  /// At the step's end: the pose and the solid with what the cloths gave. False if they gave nothing.
+  bool take_up(Pose& pose, Solid& solid);
+  /// The solid goes from where the step began to the pose, as the body goes there.
+  void lead(const Pose& pose, Solid& solid) const;
+  /// Contact with other bodies and obstacles, in a step of dt, s: it goes on as `with` says from where the
+  /// step began; pose and solid, which was led there, as well.
+  void go_on(const MovingBody& with, Pose& pose, Solid& solid, double dt);
   /// All of it and of the pose is a number, and none beyond `farthest`.
   bool sound(const Pose& pose, double farthest) const;
   /// Back to where the last step began, at rest.

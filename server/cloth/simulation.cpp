@@ -35,6 +35,7 @@ Simulation<Real>::Simulation(SimulationDescription description) : description_(s
 template <class Real>
 void Simulation<Real>::reset() {
   air_ = Air(description_.wind, description_.seed);
+  body_collision_.reset();
   colliders_ = Colliders(description_.balls, description_.obstacles);
   cloths_ = make_cloths<Real>(description_);
   compose(description_.effects);
@@ -107,6 +108,7 @@ void Simulation<Real>::step() {
   profile_.levels = seconds(Clock::now() - begin);
 
   colliders_.begin_step(time(), dt, gravity_);
+  meet_bodies(dt);
   if (cloths_.size() > 1) share_balls(dt);
   double layers = 0;  // s
   if (layers_) {
@@ -127,11 +129,18 @@ void Simulation<Real>::step() {
     profile_.contact += last_advance_[i].contact_seconds;
     profile_.check += last_advance_[i].check_seconds;
   }
-  colliders_.end_step();
+  if (colliders_.end_step()) meet_bodies(dt);  // what the cloths press into others stays outside
   ++steps_;
 
   collect_guard_events();
   profile_.total = seconds(Clock::now() - begin);
+}
+
+template <class Real>
+void Simulation<Real>::meet_bodies(double dt) {
+  if (!colliders_.may_meet()) return;
+  if (!body_collision_) body_collision_ = std::make_unique<BodyCollision>();
+  colliders_.meet(*body_collision_, dt);
 }
 
 template <class Real>

@@ -100,6 +100,8 @@ class Simulation {
  private:
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
   void compose(const std::vector<EffectDescription>& effects);
+  /// Dynamic balls and bodies meet each other and what is in their way.
+  void meet_bodies(double dt);
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
   /// All cloths through the step, as it is for each of them alone.
@@ -111,7 +113,8 @@ class Simulation {
   Air air_;
   Colliders colliders_;
   std::vector<Cloth<Real>> cloths_;
-  std::unique_ptr<Layers<Real>> layers_;  ///< if the scene lists cloth_contact
+  std::unique_ptr<Layers<Real>> layers_;           ///< if the scene lists cloth_contact
+  std::unique_ptr<BodyCollision> body_collision_;  ///< made when something may first meet
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;
   GrabId next_grab_ = 1;

@@ -57,6 +57,7 @@ std::uint64_t state_hash(const Simulation<Real>& simulation) {
     hash.add(ball.id);
     hash.add(ball.position);
     hash.add(ball.velocity);
+    if (!ball.spin.isZero(0)) hash.add(ball.spin);  // one that never rolled has none to tell
   }
   for (const Obstacle& obstacle : simulation.colliders().obstacles()) {
     if (!obstacle.flies()) continue;  // where the others are follows from the commands

@@ -25,7 +25,9 @@ def scene(absent, present=None):
     if not sewn:
         effects.append({"type": "tearing", "strength": 0.01} if present == "tearing" else {"type": "cloth_contact"})
     wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5}}
-    balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}]
+    balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}, {"type": "plane", "position": [0, -2, 0]}]
+    if present == "bodies":
+        balls[0]["motion"] = "dynamic"
     return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],
             "wind": {name: value for name, value in wind.items() if name != absent},
             "colliders": [] if absent == "contact" else balls,

@@ -1,15 +1,12 @@
 #include "cloth/contact/broad_phase.h"
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/narrowphase/collision_object.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "cloth/contact/box_tree.h"
 #include "cloth/kernels/contact_kernels.h"
 #include "cloth/kernels/node_kernels.h"
 
@@ -33,66 +30,10 @@ AlignedBox grown(const AlignedBox& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-/// A box in FCL's tree, resized and moved in place.
-class TreeBox {
- public:
-  explicit TreeBox(int index) : index_(index), shape_(std::make_shared<fcl::Boxd>(1, 1, 1)), object_(shape_) {
-    object_.setUserData(&index_);
-  }
-  TreeBox(const TreeBox&) = delete;  // FCL keeps pointers to the object and to its user data.
-  TreeBox& operator=(const TreeBox&) = delete;
-
-  void set(const AlignedBox& box) {
-    shape_->side = box.sizes();
-    shape_->computeLocalAABB();
-    object_.setTranslation(box.center());
-    object_.computeAABB();
-  }
-  fcl::CollisionObjectd* object() { return &object_; }
-
- private:
-  int index_;
-  std::shared_ptr<fcl::Boxd> shape_;
-  fcl::CollisionObjectd object_;
-};
-
-/// A set of boxes under one tree.
-class Tree {
- public:
-  /// Makes it hold `count` boxes; their extents are then to be set before update().
-  void resize(std::size_t count) {
-    if (boxes_.size() == count) return;
-    manager_.clear();
-    boxes_.clear();
-    registered_ = false;
-    for (std::size_t i = 0; i < count; ++i) boxes_.push_back(std::make_unique<TreeBox>(static_cast<int>(i)));
-  }
-  void set(std::size_t i, const AlignedBox& box) { boxes_[i]->set(box); }
-  /// Fits the tree to the boxes; it is built when they first have their places, which makes it a good one.
-  void update() {
-    if (registered_) {
-      manager_.update();
-      return;
-    }
-    std::vector<fcl::CollisionObjectd*> objects;
-    for (const auto& box : boxes_) objects.push_back(box->object());
-    manager_.registerObjects(objects);
-    manager_.setup();
-    registered_ = true;
-  }
-  fcl::DynamicAABBTreeCollisionManagerd& manager() { return manager_; }
-
- private:
-  std::vector<std::unique_ptr<TreeBox>> boxes_;
-  fcl::DynamicAABBTreeCollisionManagerd manager_;
-  bool registered_ = false;
-};
-
-int index_of(const fcl::CollisionObjectd* object) { return *static_cast<const int*>(object->getUserData()); }
-
 /// FCL calls it for each tile and solid whose boxes overlap, in the order of its traversal.
 bool collect(fcl::CollisionObjectd* tile, fcl::CollisionObjectd* solid, void* pairs) {
-  static_cast<std::vector<TileSolidPair>*>(pairs)->push_back({index_of(tile), index_of(solid)});
+  static_cast<std::vector<TileSolidPair>*>(pairs)->push_back(
+      {BoxTree::index_of(tile), BoxTree::index_of(solid)});
   return false;  // go on
 }
 
@@ -246,7 +187,7 @@ struct BroadPhase<Real>::Impl {
   };
 
   std::vector<Tile> tiles;
-  Tree tile_tree, solid_tree;
+  BoxTree tile_tree, solid_tree;
   VectorField<Real> fitted_positions;   ///< of the nodes, when the tiles' solid_boxes were fitted to them
   double margin = 0;                    ///< by which the trees' solid_boxes are larger on each side, m
   std::vector<AlignedBox> solid_boxes;  ///< of the solids on their ways, by solid

@@ -1,0 +1,353 @@
+#include "cloth/contact/body_collision.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/narrowphase/collision.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "cloth/contact/box_tree.h"
+#include "cloth/contact/contact_manifold.h"
+#include "cloth/contact/triangle_mesh.h"
+
+namespace weft {
+namespace {
+
+using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+using Pair = std::pair<int, int>;
+
+/// Of the smaller of two inner radii: what is nearer counts, as an impulse may bring it on; what moves
+/// farther may have passed through.
+constexpr double kMargin = 0.5;
+/// Of two solids' contacts these are enough to hold them.
+constexpr std::size_t kMostContacts = 8;
+
+bool is_half_space(const Solid& solid) { return std::holds_alternative<HalfSpace>(solid.shape); }
+bool is_ball(const Solid& solid) { return std::holds_alternative<Sphere>(solid.shape); }
+const TriangleMesh* surface_of(const Solid& solid) {
+  const auto* mesh = std::get_if<Mesh>(&solid.shape);
+  return mesh == nullptr ? nullptr : mesh->surface;
+}
+
+/// How far any of its points moves in the step at most, m.
+double most_move(const Solid& solid) {
+  const double way = (solid.position - solid.start).norm();
+  return solid.turns() ? way + solid.turn.norm() * outer_radius(solid.shape) : way;
+}
+
+Eigen::AlignedBox3d swept_box(const Solid& solid) {
+  Eigen::AlignedBox3d box = solid.placed(1).bounds().merged(solid.placed(0).bounds());
+  double more = kMargin * inner_radius(solid.shape);
+  if (solid.turns()) more += solid.turn.norm() * outer_radius(solid.shape);
+  return {box.min() - Vec3::Constant(more), box.max() + Vec3::Constant(more)};
+}
+
+bool collect(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* pairs) {
+  static_cast<std::vector<Pair>*>(pairs)->emplace_back(BoxTree::index_of(a), BoxTree::index_of(b));
+  return false;  // go on
+}
+
+/// FCL's form of a mesh: convex, or hollow.
+Geometry convex_of(const TriangleList& list) {
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const std::array<int, 3>& triangle : list.triangles) {
+    faces->push_back(3);
+    faces->insert(faces->end(), triangle.begin(), triangle.end());
+  }
+  return std::make_shared<fcl::Convexd>(std::make_shared<const std::vector<Vec3>>(list.vertices),
+                                        static_cast<int>(list.triangles.size()), faces);
+}
+
+Geometry hollow_of(const TriangleList& list) {
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  std::vector<fcl::Triangle> triangles;
+  for (const std::array<int, 3>& t : list.triangles) {
+    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                           static_cast<std::size_t>(t[2]));
+  }
+  model->beginModel();
+  model->addSubModel(list.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+/// Where it is at the step's end; FCL's capsules lie along z.
+fcl::Transform3d end_of(const Solid& solid) {
+  fcl::Transform3d transform = fcl::Transform3d::Identity();
+  transform.translation() = solid.position;
+  transform.linear() = solid.rotation;
+  if (std::holds_alternative<Capsule>(solid.shape)) {
+    Eigen::Matrix3d cyclic;
+    cyclic << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+    transform.linear() = solid.rotation * cyclic;
+  }
+  return transform;
+}
+
+/// Two solids while their contacts are looked for.
+class Meeting {
+ public:
+  Meeting(const std::vector<Solid>& solids, Pair pair, double dt, std::vector<BodyContact>& contacts)
+      : index_(pair),
+        a_(solids[static_cast<std::size_t>(pair.first)]),
+        b_(solids[static_cast<std::size_t>(pair.second)]),
+        margin_(kMargin * std::min(inner_radius(a_.shape), inner_radius(b_.shape))),
+        dt_(dt),
+        contacts_(contacts),
+        first_(contacts.size()) {}
+
+  const Solid& a() const { return a_; }
+  const Solid& b() const { return b_; }
+  bool fast() const { return most_move(a_) + most_move(b_) > margin_; }
+
+  /// Where the corners of one meet the other on their ways; false if none does.
+  bool sweep() {
+    if (is_ball(a_) || !is_ball(b_)) sweep_corners(false);
+    if (!is_ball(a_)) sweep_corners(true);
+    return contacts_.size() > first_;
+  }
+
+  /// Of a, or of b if `swapped`, where they end next to the other.
+  void look_at_corners(bool swapped) {
+    const Solid &on = swapped ? a_ : b_, &corners = swapped ? b_ : a_;
+    const PlacedShape shape = on.placed(1);
+    for (const Corner& corner : corners_of(corners.shape)) {
+      const Vec3 place = corners.position + corners.rotation * corner.place;
+      if (!shape.may_touch(place, corner.radius + margin_)) continue;
+      const Surface surface = surface_at(shape, place, corners.rotation * corner.outwards);
+      const double gap = surface.distance - corner.radius;
+      if (gap > margin_) continue;
+      const Vec3 at = place - corner.radius * surface.normal;
+      add(at - a_.position, at - b_.position, swapped ? Vec3(-surface.normal) : surface.normal, gap);
+    }
+  }
+
+  void look_at_faces(const Geometry& of_a, const Geometry& of_b) {
+    fcl::CollisionRequestd request(1, true);
+    fcl::CollisionResultd result;
+    fcl::collide(of_b.get(), end_of(b_), of_a.get(), end_of(a_), request, result);
+    if (!result.isCollision()) return;
+    const fcl::Contactd& deepest = result.getContact(0);
+    if (!(deepest.normal.squaredNorm() > 0.5)) return;  // of two shapes that touch by rounding it has none
+    const Manifold manifold =
+        manifold_of(a_.placed(1), b_.placed(1), deepest.normal.normalized(), deepest.pos, margin_);
+    for (const Manifold::Point& point : manifold.points) {
+      add(point.place - a_.position, point.place - b_.position, manifold.normal, point.gap);
+    }
+  }
+
+  /// Where the surfaces cross they come no nearer: how deep they are in each other there FCL does not say.
+  void look_at_crossings(const Geometry& of_a, const Geometry& of_b) {
+    constexpr std::size_t kMostCrossings = 64;
+    fcl::CollisionRequestd request(kMostCrossings, true);
+    fcl::CollisionResultd result;
+    fcl::collide(of_b.get(), end_of(b_), of_a.get(), end_of(a_), request, result);
+    const PlacedShape a = a_.placed(1), b = b_.placed(1);
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      const Vec3 place = result.getContact(i).pos;
+      const Vec3 normal = b.surface(place).normal - a.surface(place).normal;
+      if (!place.allFinite() || !(normal.norm() > 0.1)) continue;
+      const Vec3 arm_a = place - a_.position, arm_b = place - b_.position;
+      add(arm_a, arm_b, normal.normalized(), normal.normalized().dot(move_of(arm_a, arm_b)));
+    }
+  }
+
+  /// Keeps the deepest of what was found and then, again and again, what is farthest from all that is kept.
+  void thin_out() {
+    const auto begin = contacts_.begin() + static_cast<std::ptrdiff_t>(first_);
+    if (contacts_.size() - first_ <= kMostContacts) return;
+    const auto deepest = std::min_element(
+        begin, contacts_.end(), [](const BodyContact& p, const BodyContact& q) { return p.gap < q.gap; });
+    std::iter_swap(begin, deepest);
+    for (std::size_t kept = 1; kept < kMostContacts; ++kept) {
+      const auto end = begin + static_cast<std::ptrdiff_t>(kept);
+      const auto nearest = [&](const BodyContact& c) {
+        double least = (c.arm_a - begin->arm_a).squaredNorm();
+        for (auto k = begin; k != end; ++k) least = std::min(least, (c.arm_a - k->arm_a).squaredNorm());
+        return least;
+      };
+      std::iter_swap(end, std::max_element(end, contacts_.end(), [&](const auto& p, const auto& q) {
+                       return nearest(p) < nearest(q);
+                     }));
+    }
+    contacts_.resize(first_ + kMostContacts);
+  }
+
+ private:
+  /// The ball about its origin that it holds.
+  static Corner core_of(const Shape& shape) {
+    if (surface_of({.shape = shape}) == nullptr) return {.radius = inner_radius(shape)};
+    return {.radius = std::max(0.0, -PlacedShape{shape}.surface(Vec3(0, 0, 0)).distance)};
+  }
+
+  /// A corner that is in by a little, next to an edge, is told the face beyond the edge: one that looks the
+  /// same way as it does. It came from where its own solid is, so what of the surface is next to a place a
+  /// little within that is the one it met.
+  Surface surface_at(const PlacedShape& shape, const Vec3& place, const Vec3& outwards) const {
+    constexpr double kInwards = 0.2;
+    Surface nearest = shape.surface(place);
+    if (nearest.normal.dot(outwards) <= 0) return nearest;
+    const Vec3 back = kInwards * margin_ * outwards;
+    const Surface met = shape.surface(place - back);
+    return {met.distance + met.normal.dot(back), met.normal};
+  }
+
+  void sweep_corners(bool swapped) {
+    const Solid &on = swapped ? a_ : b_, &corners = swapped ? b_ : a_;
+    std::vector<Corner> all = corners_of(corners.shape);
+    if (!is_ball(corners)) all.push_back(core_of(corners.shape));
+    for (const Corner& corner : all) sweep(corner, corners, on, swapped);
+  }
+
+  void sweep(const Corner& corner, const Solid& corners, const Solid& on, bool swapped) {
+    constexpr int kSteps = 64;
+    // Nearer than this they meet; it stays a gap.
+    const double near = 1e-3 * margin_;
+    const auto place_at = [&](double share) {
+      const PlacedShape placed = corners.placed(share);
+      return Vec3(placed.centre + placed.rotation * corner.place);
+    };
+    const double most = most_move(corners) + most_move(on) +
+                        on.turn.norm() * ((corners.start - on.start).norm() + most_move(corners));
+    double share = 0;
+    for (int i = 0; i < kSteps && share < 1; ++i) {
+      const Vec3 place = place_at(share);
+      const Surface surface = on.placed(share).surface(place);
+      const double gap = surface.distance - corner.radius;
+      if (gap > near) {
+        share += gap / most;
+        continue;
+      }
+      const Vec3 further = place_at(1) - place - on.move_of(place, share, 1);
+      const double end = surface.normal.dot(further) + gap;
+      if (end > margin_) return;
+      const Vec3 at = place - corner.radius * surface.normal;
+      const Vec3 arm_corner = at - corners.at(share), arm_on = at - on.at(share);
+      if (swapped) {
+        add(arm_on, arm_corner, -surface.normal, end);
+      } else {
+        add(arm_corner, arm_on, surface.normal, end);
+      }
+      return;
+    }
+  }
+
+  /// Of a's point as seen from b's, in the step, m.
+  Vec3 move_of(const Vec3& arm_a, const Vec3& arm_b) const {
+    return dt_ * (a_.velocity + a_.spin.cross(arm_a) - b_.velocity - b_.spin.cross(arm_b));
+  }
+  /// `end` is the gap at the step's end.
+  void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end) {
+    contacts_.push_back({index_.first, index_.second, arm_a, arm_b, normal,
+                         end - normal.dot(move_of(arm_a, arm_b)), std::sqrt(a_.friction * b_.friction)});
+  }
+
+  Pair index_;
+  const Solid &a_, &b_;
+  double margin_, dt_;
+  std::vector<BodyContact>& contacts_;
+  std::size_t first_;
+};
+
+}  // namespace
+
+struct BodyCollision::Impl {
+  /// The pairs that may meet, one of each yields, a half-space second, in the order of `find`.
+  bool find_pairs(const std::vector<Solid>& solids) {
+    pairs.clear();
+    bounded.clear();
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      if (is_half_space(solids[i])) continue;
+      const Eigen::AlignedBox3d box = swept_box(solids[i]);
+      if (!box.min().allFinite() || !box.max().allFinite()) return false;
+      bounded.push_back(static_cast<int>(i));
+    }
+    tree.resize(bounded.size());
+    for (std::size_t i = 0; i < bounded.size(); ++i) {
+      tree.set(i, swept_box(solids[static_cast<std::size_t>(bounded[i])]));
+    }
+    tree.update();
+    tree.manager().collide(&pairs, collect);
+    for (Pair& pair : pairs) {
+      pair = std::minmax(bounded[static_cast<std::size_t>(pair.first)],
+                         bounded[static_cast<std::size_t>(pair.second)]);
+    }
+    for (const int i : bounded) {
+      for (std::size_t j = 0; j < solids.size(); ++j) {
+        if (is_half_space(solids[j])) pairs.emplace_back(i, static_cast<int>(j));
+      }
+    }
+    const auto solid = [&](int i) -> const Solid& { return solids[static_cast<std::size_t>(i)]; };
+    std::erase_if(pairs,
+                  [&](const Pair& p) { return !solid(p.first).yields() && !solid(p.second).yields(); });
+    const auto firmness = [&](const Pair& p) {
+      const Solid &a = solid(p.first), &b = solid(p.second);
+      if (a.yields() && b.yields()) return 0;
+      return a.yields() ? (b.moves() ? 1 : 2) : (a.moves() ? 1 : 2);
+    };
+    std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) {
+      return std::make_pair(firmness(p), p) < std::make_pair(firmness(q), q);
+    });
+    return true;
+  }
+
+  void look_at(Meeting& meeting) {
+    const Solid &a = meeting.a(), &b = meeting.b();
+    const bool met_on_its_way = !is_half_space(b) && meeting.fast() && meeting.sweep();
+    if (met_on_its_way) {  // where it would end without that says nothing
+      meeting.thin_out();
+      return;
+    }
+    if (is_half_space(b) || is_ball(a)) {
+      meeting.look_at_corners(false);
+    } else if (is_ball(b)) {
+      meeting.look_at_corners(true);
+    } else if (is_convex(a.shape) && is_convex(b.shape)) {
+      meeting.look_at_faces(geometry(a), geometry(b));
+    } else {
+      meeting.look_at_corners(false);
+      meeting.look_at_corners(true);
+      meeting.look_at_crossings(geometry(a), geometry(b));
+    }
+    meeting.thin_out();
+  }
+
+  /// As FCL has the shape; no ball and no half-space.
+  Geometry geometry(const Solid& solid) {
+    if (const auto* box = std::get_if<Box>(&solid.shape)) {
+      return std::make_shared<fcl::Boxd>(Vec3(2 * box->half));
+    }
+    if (const auto* capsule = std::get_if<Capsule>(&solid.shape)) {
+      return std::make_shared<fcl::Capsuled>(capsule->radius, 2 * capsule->half);
+    }
+    const TriangleMesh* surface = surface_of(solid);
+    Geometry& known = surfaces[surface];
+    if (!known) known = surface->list().convex ? convex_of(surface->list()) : hollow_of(surface->list());
+    return known;
+  }
+
+  BoxTree tree;
+  std::vector<int> bounded;  ///< solids in the tree
+  std::vector<Pair> pairs;
+  std::map<const TriangleMesh*, Geometry> surfaces;
+  std::vector<BodyContact> contacts;
+};
+
+BodyCollision::BodyCollision() : impl_(std::make_unique<Impl>()) {}
+BodyCollision::~BodyCollision() = default;
+
+const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& solids, double dt) {
+  impl_->contacts.clear();
+  if (!impl_->find_pairs(solids)) return impl_->contacts;
+  for (const Pair& pair : impl_->pairs) {
+    Meeting meeting(solids, pair, dt, impl_->contacts);
+    impl_->look_at(meeting);
+  }
+  return impl_->contacts;
+}
+
+}  // namespace weft
