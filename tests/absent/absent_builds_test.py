@@ -20,7 +20,7 @@ def scene(absent, present=None):
     """A hung sheet with everything but what is absent; of cloth_contact, tearing and a seam only one goes, which `present` says."""
     sewn = present in ("sewn", "gas")
     effects = [{"type": "gravity"}, {"type": "damping"}, {"type": "paper_wind"}, {"type": "aerodynamics"},
-               {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"},
+               {"type": "strain_damping", "time": 0.005}, {"type": "strain_limit"}, {"type": "plate_bending"},
                {"type": "inflation", **({"volume": 0.1} if present == "gas" else {})}]
     if not sewn:
         effects.append({"type": "tearing", "strength": 0.01} if present == "tearing" else {"type": "cloth_contact"})
