@@ -24,10 +24,12 @@ def scene(absent, present=None):
                {"type": "inflation", **({"volume": 0.1} if present == "gas" else {})}]
     if not sewn:
         effects.append({"type": "tearing", "strength": 0.01} if present == "tearing" else {"type": "cloth_contact"})
-    wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5}}
+    wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5},
+            "zones": [{"type": "sphere", "position": [0, 0, 0], "radius": 0.2, "velocity": [0, 0, 1]}]}
+    gone = ("turbulence", "zones") if absent == "uneven_wind" else (absent,)
     balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}]
     return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],
-            "wind": {name: value for name, value in wind.items() if name != absent},
+            "wind": {name: value for name, value in wind.items() if name not in gone},
             "colliders": [] if absent == "contact" else balls,
             "cloths": [{"size": [1, 1], "pins": ["top"], "sewn": sewn, "levels": {"min": 5, "max": 5}}]}
 
