@@ -1,84 +1,19 @@
 #include "cloth/cloth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "cloth/clock.h"
-#include "cloth/random.h"
 #include "cloth/refine.h"
+#include "cloth/start.h"
 #include "cloth/tear/mend.h"
 #include "cloth/tear/tearing.h"
 #include "cloth/unfold.h"
 
 namespace weft {
 namespace {
-
-/// Calls visit(r, c, u, v) for every node, row by row, (u, v) its place on the sheet.
-template <class Visit>
-void for_each_node(const Grid& grid, Visit visit) {
-  for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.cols; ++c) {
-      visit(r, c, static_cast<double>(c) / (grid.cols - 1), static_cast<double>(r) / (grid.rows - 1));
-    }
-  }
-}
-
-template <class Real>
-void set(VectorField<Real>& field, int r, int c, const Vec3& value) {
-  field.x.at(r, c) = static_cast<Real>(value.x());
-  field.y.at(r, c) = static_cast<Real>(value.y());
-  field.z.at(r, c) = static_cast<Real>(value.z());
-}
-
-/// Where the node at (u, v) of a cloth that is not sewn starts, as the cloth lies in its own x-y plane, m.
-Vec3 flat(const Vec2& size, double u, double v) { return {(u - 0.5) * size.x(), (0.5 - v) * size.y(), 0.0}; }
-
-/// The same of a bag: its two sides lie on each other, opened by a hundredth of their shorter edge, which
-/// stretches them by less than 0.05 %.
-Vec3 folded(const Vec2& size, double u, double v) {
-  constexpr double kOpening = 0.005, kPi = std::numbers::pi;
-  const double width = size.x() / 2;
-  return {2 * width * (std::min(u, 1 - u) - 0.25), (0.5 - v) * size.y(),
-          kOpening * std::min(width, size.y()) * std::sin(2 * kPi * u) * std::sin(kPi * v)};
-}
-
-/// Start positions, without the random offsets.
-template <class Real>
-void place(const ClothDescription& description, Particles<Real>& particles) {
-  const Grid& grid = particles.grid();
-  if (!description.nodes.empty() && description.nodes.size() != static_cast<std::size_t>(grid.nodes())) {
-    throw std::invalid_argument("a cloth needs as many start positions as it has nodes at its initial level");
-  }
-  std::size_t next = 0;
-  for_each_node(grid, [&](int r, int c, double u, double v) {
-    if (description.nodes.empty()) {
-      const Vec3 local = (description.sewn ? folded : flat)(description.size, u, v);
-      set(particles.position, r, c, description.position + description.orientation * local);
-    } else {
-      set(particles.position, r, c, description.nodes[next++]);
-    }
-  });
-}
-
-/// Moves each free node by up to `perturbation` along the sheet's local z. Every node draws, pinned or not,
-/// so that pins do not change what the others get.
-template <class Real>
-void perturb(const ClothDescription& description, std::uint64_t seed, Particles<Real>& particles) {
-  if (description.perturbation == 0) return;
-  Random random(seed);
-  const Vec3 normal = description.orientation * Vec3(0, 0, 1);
-  for_each_node(particles.grid(), [&](int r, int c, double, double) {
-    const double offset = description.perturbation * random.symmetric();
-    if (particles.inverse_mass.at(r, c) > Real(0)) {
-      set(particles.position, r, c, particles.position_at(r, c) + offset * normal);
-    }
-  });
-}
 
 bool is_implicit(const IntegratorDescription& integrator) {
   return std::holds_alternative<BackwardEulerDescription>(integrator) ||
@@ -97,11 +32,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
       sleep_(sleep_speed) {
   compose(effects);
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
-  Particles<Real> particles(description_.base_cells.at(level));
-  place(description_, particles);
-  for_each_node(particles.grid(),
-                [&](int r, int c, double, double) { set(particles.velocity, r, c, description_.velocity); });
-  enter_level(level, std::move(particles));
+  enter_level(level, start<Real>(description_, level));
   perturb(description_, seed, particles_);
   if (seam_) seam_->join(particles_);
   fill();
