@@ -7,8 +7,10 @@
 
 #include "cloth/bands.h"
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/kernels/limited_kernels.h"
 #include "cloth/kernels/spring_kernels.h"
 #include "cloth/kernels/strain_damping_kernels.h"
+#include "cloth/kernels/torn_kernels.h"
 
 namespace weft {
 namespace {
@@ -195,15 +197,15 @@ template <class Real>
 void Springs<Real>::add_forces(const VectorField<Real>& position, VectorField<Real>& force) const {
   if (families_.empty()) return;
   const Grid& grid = position.grid();
-  if (torn_) {
-    kernels::add_torn_spring_forces(lattice(grid), grid, kernels::components(position),
-                                    kernels::components(force), work_.data());
-  } else if (limited_) {
-    kernels::add_limited_spring_forces(lattice(grid), grid, kernels::components(position),
-                                       kernels::components(force), work_.data());
+  const auto add_by = [&](auto&& add) {
+    add(lattice(grid), grid, kernels::components(position), kernels::components(force), work_.data());
+  };
+  if (limited_) {
+    add_by(torn_ ? kernels::add_limited_torn_spring_forces<Real> : kernels::add_limited_spring_forces<Real>);
+  } else if (torn_) {
+    add_by(kernels::add_torn_spring_forces<Real>);
   } else {
-    kernels::add_spring_forces(lattice(grid), grid, kernels::components(position), kernels::components(force),
-                               work_.data());
+    add_by(kernels::add_spring_forces<Real>);
   }
 }
 
@@ -243,24 +245,30 @@ void Springs<Real>::linearise(const Grid& grid, kernels::Components<const Real> 
                               double h) const {
   const kernels::SpringLattice<Real> springs = lattice(grid);
   const Real axial = static_cast<Real>(1 + damping_time_ / h);
-  Bands(grid).for_each([&](kernels::RowRange rows, int) {
-    if (torn_) {
-      kernels::linearise_torn_springs(springs, grid, position, axial, links, rows);
-    } else if (limited_) {
-      kernels::linearise_limited_springs(springs, grid, position, axial, links, rows);
-    } else {
-      kernels::linearise_springs(springs, grid, position, axial, links, rows);
-    }
-  });
+  const auto linearise_by = [&](auto&& linearise) {
+    Bands(grid).for_each(
+        [&](kernels::RowRange rows, int) { linearise(springs, grid, position, axial, links, rows); });
+  };
+  if (limited_) {
+    linearise_by(torn_ ? kernels::linearise_limited_torn_springs<Real>
+                       : kernels::linearise_limited_springs<Real>);
+  } else if (torn_) {
+    linearise_by(kernels::linearise_torn_springs<Real>);
+  } else {
+    linearise_by(kernels::linearise_springs<Real>);
+  }
 }
 
 template <class Real>
 kernels::SpringModelError Springs<Real>::model_error(const Grid& grid,
                                                      kernels::Components<const Real> position,
                                                      kernels::Components<const Real> change) const {
-  if (torn_) return kernels::torn_spring_model_error(lattice(grid), grid, position, change);
-  return limited_ ? kernels::limited_spring_model_error(lattice(grid), grid, position, change)
-                  : kernels::spring_model_error(lattice(grid), grid, position, change);
+  const auto error_by = [&](auto&& error) { return error(lattice(grid), grid, position, change); };
+  if (limited_) {
+    return error_by(torn_ ? kernels::limited_torn_spring_model_error<Real>
+                          : kernels::limited_spring_model_error<Real>);
+  }
+  return error_by(torn_ ? kernels::torn_spring_model_error<Real> : kernels::spring_model_error<Real>);
 }
 
 template <class Real>

@@ -20,16 +20,18 @@ def scene(absent, present=None):
     """A hung sheet with everything but what is absent; of cloth_contact, tearing and a seam only one goes, which `present` says."""
     sewn = present in ("sewn", "gas")
     effects = [{"type": "gravity"}, {"type": "damping"}, {"type": "paper_wind"}, {"type": "aerodynamics"},
-               {"type": "strain_damping", "time": 0.005}, {"type": "plate_bending"},
+               {"type": "strain_damping", "time": 0.005}, {"type": "strain_limit"}, {"type": "plate_bending"},
                {"type": "inflation", **({"volume": 0.1} if present == "gas" else {})}]
     if not sewn:
         effects.append({"type": "tearing", "strength": 0.01} if present == "tearing" else {"type": "cloth_contact"})
-    wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5}}
+    wind = {"speed": 3, "gusts": {"intensity": 0.2, "time_scale": 3}, "turbulence": {"intensity": 0.2, "length_scale": 0.5},
+            "zones": [{"type": "sphere", "position": [0, 0, 0], "radius": 0.2, "velocity": [0, 0, 1]}]}
+    gone = ("turbulence", "zones") if absent == "uneven_wind" else (absent,)
     balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}, {"type": "plane", "position": [0, -2, 0]}]
     if present == "bodies":
         balls[0]["motion"] = "dynamic"
     return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],
-            "wind": {name: value for name, value in wind.items() if name != absent},
+            "wind": {name: value for name, value in wind.items() if name not in gone},
             "colliders": [] if absent == "contact" else balls,
             "cloths": [{"size": [1, 1], "pins": ["top"], "sewn": sewn, "levels": {"min": 5, "max": 5}}]}
 

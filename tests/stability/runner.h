@@ -19,6 +19,7 @@ struct Result {
   double penetration = 0;               ///< m, deepest from the stated time on
   int guard_events = 0;                 ///< how often the step guard stepped in
   double milliseconds = 0;              ///< a frame: processor time of this thread, mean
+  bool cut_short = false;               ///< ended early, under a sanitizer: what comes later is not judged
 };
 
 Result run(const Case& hard_case, const Setup& setup, bool nightly);

@@ -19,7 +19,7 @@ TEST_P(HardCase, Survives) {
   keep(row_of(*hard_case, setup, result), std::filesystem::path(WEFT_STABILITY_REPORT) / "rows");
   const bool open = !nightly && is_open(name_of(GetParam()));
   if (result.verdict != Verdict::fail) {
-    EXPECT_FALSE(open) << "passes now: take it off open_failures.txt";
+    EXPECT_FALSE(open && !result.cut_short) << "passes now: take it off open_failures.txt";
     return;
   }
   std::string complaints;

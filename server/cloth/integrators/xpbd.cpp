@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "cloth/clock.h"
+#include "cloth/kernels/limited_kernels.h"
+#include "cloth/kernels/torn_kernels.h"
 
 namespace weft {
 namespace {
@@ -150,10 +152,12 @@ void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces,
   }
   if (forces.plate != nullptr) kernels::project_plate(layout_, plate_.data(), sheet_.data());
   for (const auto& family : springs_) {
-    if (family.row_step > 0) {
+    const bool torn = family.row_step > 0;
+    if (family.excess > Real(0)) {
+      (torn ? kernels::project_limited_torn<Real> : kernels::project_limited<Real>)(layout_, family,
+                                                                                    sheet_.data());
+    } else if (torn) {
       kernels::project_torn(layout_, family, sheet_.data());
-    } else if (family.excess > Real(0)) {
-      kernels::project_limited(layout_, family, sheet_.data());
     } else {
       kernels::project(layout_, family, sheet_.data());
     }

@@ -11,17 +11,6 @@ namespace weft::kernels {
 template <class Real>
 void linearise_springs(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,
                        Real axial, const LinkFamilies<SpringLinks<Real>>& links, RowRange rows);
-/// The same where structural and shear springs have their limits: beyond them with the stiffness and the
-/// tension they have there.
-template <class Real>
-void linearise_limited_springs(const SpringLattice<Real>& springs, const Grid& grid,
-                               Components<const Real> position, Real axial,
-                               const LinkFamilies<SpringLinks<Real>>& links, RowRange rows);
-/// The same where springs may be cut, with limits or without.
-template <class Real>
-void linearise_torn_springs(const SpringLattice<Real>& springs, const Grid& grid,
-                            Components<const Real> position, Real axial,
-                            const LinkFamilies<SpringLinks<Real>>& links, RowRange rows);
 
 /// A step of h seconds by a backward differentiation formula, node by node: with d the node's move in the
 /// step, its new velocity is rate (d - offset), and without forces it would move by `free_move`.

@@ -16,13 +16,5 @@ struct SpringModelError {
 template <class Real>
 SpringModelError spring_model_error(const SpringLattice<Real>& springs, const Grid& grid,
                                     Components<const Real> position, Components<const Real> change);
-/// The same where structural and shear springs have their limits, against linearise_limited_springs.
-template <class Real>
-SpringModelError limited_spring_model_error(const SpringLattice<Real>& springs, const Grid& grid,
-                                            Components<const Real> position, Components<const Real> change);
-/// The same where springs may be cut, with limits or without.
-template <class Real>
-SpringModelError torn_spring_model_error(const SpringLattice<Real>& springs, const Grid& grid,
-                                         Components<const Real> position, Components<const Real> change);
 
 }  // namespace weft::kernels

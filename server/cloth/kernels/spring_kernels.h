@@ -50,21 +50,8 @@ decltype(auto) springs_of_row(const SpringLattice<Real>& springs, int r) {
 std::size_t spring_work_size(const Grid& grid);
 
 /// Adds Eq. 1's force of every spring to both its ends, N. Positions and forces lie on `grid`.
-void add_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
-                       Components<const float> position, Components<float> force, float* work);
-void add_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
-                       Components<const double> position, Components<double> force, double* work);
-
-/// The same where structural and shear springs have their limits.
-void add_limited_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
-                               Components<const float> position, Components<float> force, float* work);
-void add_limited_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
-                               Components<const double> position, Components<double> force, double* work);
-
-/// The same where springs may be cut, with limits or without.
-void add_torn_spring_forces(const SpringLattice<float>& springs, const Grid& grid,
-                            Components<const float> position, Components<float> force, float* work);
-void add_torn_spring_forces(const SpringLattice<double>& springs, const Grid& grid,
-                            Components<const double> position, Components<double> force, double* work);
+template <class Real>
+void add_spring_forces(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position,
+                       Components<Real> force, Real* work);
 
 }  // namespace weft::kernels

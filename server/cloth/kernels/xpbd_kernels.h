@@ -74,13 +74,6 @@ void recall(const QuarterRows& layout, const XpbdSprings<double>& springs, doubl
 /// they are.
 void project(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
 void project(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
-/// The same where springs stiffen. As its tension is the larger one of two straight lines in its length, a
-/// spring's multiplier is the larger one of those that either of them gives: no branch.
-void project_limited(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
-void project_limited(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
-/// The same where springs may be cut, with limits or without.
-void project_torn(const QuarterRows& layout, const XpbdSprings<float>& springs, float* sheet);
-void project_torn(const QuarterRows& layout, const XpbdSprings<double>& springs, double* sheet);
 
 /// Takes over the projected moves d: v += (d - d predicted) / h, r += d. `row` as above.
 void take_over(const QuarterRows& layout, const Grid& grid, const float* sheet, float h,
