@@ -30,6 +30,9 @@ class FeatureSearch {
   /// What was found last, for the same starts, with all that come as near as `margin`: found again if the
   /// ends are others by now than can be told from it. `again` is the margin then.
   const std::vector<FeaturePair>& found(const LayerNodes& nodes, double margin, double again);
+  /// The last search's pairs, valid until the next one, and its margin, m: 0 if nothing was found.
+  const std::vector<FeaturePair>& pairs() const { return pairs_; }
+  double margin() const { return margin_; }
   /// The pairs of cells that the last search went through, and how many searches there were.
   std::size_t cell_pairs() const { return cell_pairs_; }
   std::size_t searches() const { return searches_; }

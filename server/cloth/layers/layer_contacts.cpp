@@ -40,16 +40,18 @@ Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * norm
 }  // namespace
 
 template <class Real>
-LayerContacts<Real>::LayerContacts(const LayerNodes& nodes, const Grid& grid, std::size_t cloth,
-                                   const LayerParameters& parameters)
+LayerContacts<Real>::LayerContacts(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid,
+                                   std::size_t cloth, const LayerParameters& parameters)
     : nodes_(nodes),
+      found_(found),
       grid_(grid),
       first_(nodes.first[cloth]),
       end_(nodes.first[cloth + 1]),
       parameters_(parameters),
       stiffness_(end_ - first_, kSoft),
       strained_(end_ - first_, 0),
-      given_(end_ - first_, Vec3(0, 0, 0)) {
+      given_(end_ - first_, Vec3(0, 0, 0)),
+      substep_net_(grid, parameters.net_gap) {
   search_.set_grids({grid});
 }
 
@@ -330,14 +332,10 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
       }
     }
     const Nearness near = nearness(pair.features.kind, x);
-    Vec3 normal = contact_normal(pair.features.kind, x, near);
-    double distance = normal.dot(near.apart);
-    if (distance == 0) continue;
-    if (normal.dot(pair.normal) < 0) {  // they have passed each other
-      normal = -normal;
-      distance = -distance;
-    }
-    if (distance >= pair.gap) continue;
+    // As they lie now: in folds they may have turned since the step began.
+    const Vec3 normal = contact_normal(pair.features.kind, x, near);
+    const double distance = normal.dot(near.apart);
+    if (distance == 0 || distance >= pair.gap) continue;
     double share = 0;  // inverse mass along the normal
     Vec3 relative(0, 0, 0);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -366,6 +364,8 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
       add(position, n - first_, w * push);
     }
   }
+  if (substep.from == 0) substep_net_.begin_step(nodes_, found_, first_, end_);
+  substep_net_.apply(particles, substep);
 }
 
 template class LayerContacts<float>;

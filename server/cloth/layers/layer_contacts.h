@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "cloth/contact/contact.h"
-#include "cloth/layers/feature_search.h"
+#include "cloth/layers/substep_net.h"
 #include "cloth/solver/node_couplings.h"
 #include "cloth/solver/one_sided_springs.h"
 
@@ -37,7 +37,7 @@ struct LayerParameters {
 /// the step's iterations is held, too, and more are made. Layers nearer than their gap are led apart by a
 /// part of what they lack a step.
 ///
-/// To an explicit substep it is an inelastic impulse.
+/// To an explicit substep it is an inelastic impulse; and what it misses within the cloth SubstepNet holds.
 ///
 /// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
@@ -47,7 +47,8 @@ struct LayerParameters {
 template <class Real>
 class LayerContacts {
  public:
-  LayerContacts(const LayerNodes& nodes, const Grid& grid, std::size_t cloth,
+  /// `found` is the search that the steps' pairs come from. It and the nodes are kept by reference.
+  LayerContacts(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid, std::size_t cloth,
                 const LayerParameters& parameters);
 
   /// The pairs of the step that have nodes of this cloth; forces are remembered by node.
@@ -56,6 +57,7 @@ class LayerContacts {
   void set_torn(const std::shared_ptr<const TornLinks>& torn) {
     torn_ = torn;
     search_.set_torn(0, *torn);
+    substep_net_.set_torn(*torn);
   }
   /// Nothing for a step to do.
   bool empty() const { return pairs_.empty() && struck_.empty(); }
@@ -138,6 +140,7 @@ class LayerContacts {
   Vec3 slip(const Constraint& c, kernels::Components<const Real> move) const;
 
   const LayerNodes& nodes_;
+  const FeatureSearch& found_;
   Grid grid_;
   std::shared_ptr<const TornLinks> torn_;  ///< nullptr while the cloth is whole
   std::uint32_t first_, end_;              ///< of this cloth's nodes
@@ -153,7 +156,8 @@ class LayerContacts {
   Substep substep_;
   LayerNodes own_;        ///< this cloth's nodes alone, on their ways in the substep
   FeatureSearch search_;  ///< among them
-  int rounds_ = 0;        ///< in which meeting pairs were held, of the substep
+  SubstepNet substep_net_;
+  int rounds_ = 0;  ///< in which meeting pairs were held, of the substep
 };
 
 extern template class LayerContacts<float>;

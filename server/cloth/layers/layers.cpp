@@ -56,7 +56,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   net_ = CollisionNet(kNetPart * least);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     contacts_.push_back(std::make_unique<LayerContacts<Real>>(
-        nodes_, grids[i], i, LayerParameters{gaps_[i], net_.gap(), parameters_.friction}));
+        nodes_, search_, grids[i], i, LayerParameters{gaps_[i], net_.gap(), parameters_.friction}));
     cloths[i].set_layers(contacts_.back().get());
   }
   may_be_tangled_ = true;
