@@ -62,7 +62,10 @@ export function materialCoordinates(rows, cols, width, height) {
   return uv;
 }
 
-/** Unit normals by central differences along the grid, one-sided at its edges. Writes into `normals`. */
+/**
+ * Unit normals by central differences along the grid, one-sided at its edges; of the faces around where the nodes on both sides of
+ * one are sewn together, as at the tip of a fold. Writes into `normals`.
+ */
 export function gridNormals(positions, rows, cols, normals) {
   const stride = cols * 3;
   for (let r = 0; r < rows; ++r) {
@@ -78,16 +81,40 @@ export function gridNormals(positions, rows, cols, normals) {
       const vx = positions[at + up] - positions[at + down];
       const vy = positions[at + up + 1] - positions[at + down + 1];
       const vz = positions[at + up + 2] - positions[at + down + 2];
-      const nx = uy * vz - uz * vy;
-      const ny = uz * vx - ux * vz;
-      const nz = ux * vy - uy * vx;
-      const length = Math.hypot(nx, ny, nz) || 1;
-      normals[at] = nx / length;
-      normals[at + 1] = ny / length;
-      normals[at + 2] = nz / length;
+      normals[at] = uy * vz - uz * vy;
+      normals[at + 1] = uz * vx - ux * vz;
+      normals[at + 2] = ux * vy - uy * vx;
+      if (!unify(normals, at)) addFacesAround(positions, rows, cols, r, c, normals), unify(normals, at);
     }
   }
   return normals;
+}
+
+/** Makes the vector at `at` as long as 1; false if it is 0. */
+function unify(vectors, at) {
+  const length = Math.hypot(vectors[at], vectors[at + 1], vectors[at + 2]);
+  if (length > 0) for (let axis = 0; axis < 3; ++axis) vectors[at + axis] /= length;
+  return length > 0;
+}
+
+/** Adds to each node in `corners` the normal, as long as twice its area, of the face that begins at row r, column c. */
+function addFace(positions, cols, r, c, corners, normals) {
+  const a = 3 * (r * cols + c), right = a + 3, below = a + 3 * cols, across = below + 3;
+  const [ux, uy, uz] = [0, 1, 2].map((axis) => positions[right + axis] - positions[below + axis]);
+  const [vx, vy, vz] = [0, 1, 2].map((axis) => positions[a + axis] - positions[across + axis]);
+  for (const corner of corners) {
+    normals[corner] += uy * vz - uz * vy;
+    normals[corner + 1] += uz * vx - ux * vz;
+    normals[corner + 2] += ux * vy - uy * vx;
+  }
+}
+
+function addFacesAround(positions, rows, cols, r, c, normals) {
+  for (let row = Math.max(r - 1, 0); row <= Math.min(r, rows - 2); ++row) {
+    for (let col = Math.max(c - 1, 0); col <= Math.min(c, cols - 2); ++col) {
+      addFace(positions, cols, row, col, [3 * (r * cols + c)], normals);
+    }
+  }
 }
 
 /** Unit normals of a torn sheet: of the faces around each node that are not torn, by their areas. Writes into `normals`. */
@@ -96,20 +123,11 @@ export function tornNormals(positions, rows, cols, torn, normals) {
   for (let r = 0; r + 1 < rows; ++r) {
     for (let c = 0; c + 1 < cols; ++c) {
       if (torn.has(r * (cols - 1) + c)) continue;
-      const a = 3 * (r * cols + c), right = a + 3, below = a + 3 * cols, across = below + 3;
-      const [ux, uy, uz] = [0, 1, 2].map((axis) => positions[right + axis] - positions[below + axis]);
-      const [vx, vy, vz] = [0, 1, 2].map((axis) => positions[a + axis] - positions[across + axis]);
-      for (const corner of [a, right, below, across]) {
-        normals[corner] += uy * vz - uz * vy;
-        normals[corner + 1] += uz * vx - ux * vz;
-        normals[corner + 2] += ux * vy - uy * vx;
-      }
+      const a = 3 * (r * cols + c), below = a + 3 * cols;
+      addFace(positions, cols, r, c, [a, a + 3, below, below + 3], normals);
     }
   }
-  for (let at = 0; at < normals.length; at += 3) {
-    const length = Math.hypot(normals[at], normals[at + 1], normals[at + 2]) || 1;
-    for (let axis = 0; axis < 3; ++axis) normals[at + axis] /= length;
-  }
+  for (let at = 0; at < normals.length; at += 3) unify(normals, at);
   return normals;
 }
 

@@ -85,6 +85,13 @@ test('a normal of nodes that coincide is no NaN', () => {
   assert.ok(normals.every((value) => value === 0));
 });
 
+test('the normal at the tip of a fold, where both neighbours are sewn together, is that of its faces', () => {
+  const tent = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0.5, 1, -1, 0, 0, -1, -0.5);
+  const tip = [...gridNormals(tent, 2, 3, new Float32Array(18)).slice(3, 6)];
+  // Across the faces' diagonals: (0.5, 0.5, 2) + (0.5, 0.5, -2).
+  tip.forEach((value, axis) => assert.ok(Math.abs(value - [Math.SQRT1_2, Math.SQRT1_2, 0][axis]) < 1e-6, `${tip}`));
+});
+
 test('split keeps shared nodes and puts new ones in the middle (Eq. 8)', () => {
   const coarse = {positions: Float32Array.of(0, 0, 0, 2, 0, 0, 0, -2, 0, 2, -2, 4), rows: 2, cols: 2};
   const fine = split(coarse.positions, 2, 2);

@@ -86,8 +86,13 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   return reading;
 }
 
+double energy_room(Method method) {
+  constexpr double kRoom = 0.01, kModifiedEnergy = 19;
+  return method == Method::explicit_fixed || method == Method::symplectic_euler ? kModifiedEnergy - 1 : kRoom;
+}
+
 EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup, double input) {
-  constexpr double kRoom = 0.01, kModifiedEnergy = 19, kRoundingStrain = 1e-4;
+  constexpr double kRoundingStrain = 1e-4;
   EnergyBound bound;
   bound.start = read(simulation, true).energy;
   double moving = input, rounding = 0;
@@ -109,8 +114,7 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
   for (const Obstacle& each : simulation.colliders().obstacles()) {
     if (each.flies()) moving += kinetic(each) + each.body->mass() * simulation.gravity().norm() * kSize;
   }
-  const bool is_explicit = setup.method == Method::explicit_fixed || setup.method == Method::symplectic_euler;
-  bound.allowed = rounding + input + moving * (is_explicit ? kModifiedEnergy - 1 : kRoom);
+  bound.allowed = rounding + input + moving * energy_room(setup.method);
   return bound;
 }
 

@@ -35,6 +35,8 @@ struct EnergyBound {
   double start = 0;    ///< J
   double allowed = 0;  ///< J above it
 };
+/// The part of what moves by which a method's energy may seem more than it is: 1 %, or 18 times.
+double energy_room(Method method);
 EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup, double input);
 
 /// The largest distance of a node from where it was, m.

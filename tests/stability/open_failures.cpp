@@ -11,7 +11,7 @@ bool is_open(const std::string& name) {
     std::ifstream file(WEFT_STABILITY_OPEN);
     if (!file) throw std::runtime_error(WEFT_STABILITY_OPEN " cannot be read");
     std::set<std::string> read;
-    for (std::string line; std::getline(file, line);) read.insert(line);
+    for (std::string line; std::getline(file, line);) read.insert(line.substr(0, line.find(' ')));
     return read;
   }();
   return names.contains(name);

@@ -1,6 +1,7 @@
 // What a random scene is held to.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/contact/triangle_mesh.h"
 #include "cloth/effects/grab.h"
@@ -109,6 +110,22 @@ double input(const SimulationDescription& scene) {
   return work;
 }
 
+/// What a step of symplectic Euler brings in by its rounding, J. Each substep leaves every coordinate off by
+/// up to half a unit of its last place, evenly spread, which has the variance unit^2 / 12: of so much at
+/// either end a spring of stiffness k gets k unit^2 / 12 on average, and nothing takes it away.
+double work_of_rounding(const Simulation<float>& simulation) {
+  const Cloth<float>& cloth = simulation.cloths()[0];
+  const Grid& grid = cloth.particles().grid();
+  double farthest = 0, stiffness = 0;  // N/m, of all springs
+  for (const Vec3& node : positions(simulation)) farthest = std::max(farthest, node.cwiseAbs().maxCoeff());
+  for (const SpringFamily& family : cloth.springs().families()) {
+    const int springs = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
+    stiffness += springs * family.stiffness * family.limit.stiffening;
+  }
+  const double unit = std::numeric_limits<float>::epsilon() * farthest;
+  return simulation.report(0).substeps * stiffness * unit * unit / 12;
+}
+
 /// What is done to a scene while it runs, by its seed.
 class Commands {
  public:
@@ -118,8 +135,14 @@ class Commands {
         hand_(hand_of(scene_)),
         kept_(kept_effects(scene_)) {}
 
+  /// J, that the last change of level brought in by the paper's rules. Eqs. 8 and 9 say all of the state
+  /// after it: springs across folds that a finer grid has and a coarser one has not are compressed, however
+  /// the nodes move. The engine's own rules may bring in nothing.
+  double raised() const { return raised_; }
+
   /// Before a step. True if effects were switched: energies before and after are not of one system.
   bool give(long step) {
+    raised_ = 0;
     change_level(step);
     move_hand(step);
     if (kept_ && step == step_at(kSwitchesOff)) simulation_.set_effects(*kept_);
@@ -133,11 +156,15 @@ class Commands {
   /// Up and down through the cloth's levels.
   void change_level(long step) {
     const ClothDescription& cloth = scene_.cloths[0];
-    const int levels = cloth.max_level - cloth.min_level;
+    const long levels = cloth.max_level - cloth.min_level;
     const auto period = static_cast<long>(1 + scene_.seed % 16);
     if (levels == 0 || step % period != 0) return;
     const long turn = step / period % (2 * levels);
     simulation_.request_level(0, cloth.min_level + static_cast<int>(std::min(turn, 2 * levels - turn)));
+    if (cloth.discretization != Discretization::paper) return;
+    const double before = read(simulation_, true).energy;
+    simulation_.cloths()[0].apply_pending_level();
+    raised_ = std::max(0.0, read(simulation_, true).energy - before);
   }
 
   void move_hand(long step) {
@@ -155,6 +182,7 @@ class Commands {
   }
 
   Simulation<float>& simulation_;
+  double raised_ = 0;
   const SimulationDescription& scene_;
   std::optional<Hand> hand_;
   std::optional<std::vector<EffectDescription>> kept_;
@@ -164,7 +192,7 @@ class Commands {
 
 }  // namespace
 
-Complaint check(const SimulationDescription& scene) {
+std::optional<Failure> check(const SimulationDescription& scene) {
   const Setup setup{method_of(scene.integrator), 0, 0};
   Simulation<float> simulation(scene);
   EnergyBound bound = energy_bound(simulation, setup, input(scene));
@@ -174,12 +202,16 @@ Complaint check(const SimulationDescription& scene) {
     const bool switched = commands.give(step);
     simulation.step();
     const std::string when = " after step " + std::to_string(step + 1);
-    if (!simulation.healthy()) return "not finite" + when;
+    if (!simulation.healthy()) return Failure{Failure::Kind::not_finite, "not finite" + when};
+    double put_in = commands.raised();
+    if (setup.method == Method::symplectic_euler) put_in += work_of_rounding(simulation);
+    bound.allowed += (1 + energy_room(setup.method)) * put_in;
     if (switched) bound = energy_bound(simulation, setup, input(scene));
     const double rise = read(simulation, setup.method != Method::xpbd).energy - bound.start;
     if (!(rise <= bound.allowed)) {
-      return "energy " + std::to_string(rise) + " J above the start's, allowed " +
-             std::to_string(bound.allowed) + when;
+      return Failure{Failure::Kind::energy, "energy " + std::to_string(rise) +
+                                                " J above the start's, allowed " +
+                                                std::to_string(bound.allowed) + when};
     }
   }
   return {};

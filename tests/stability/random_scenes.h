@@ -10,15 +10,22 @@ namespace weft::stability {
 /// hundreds of substeps.
 SimulationDescription random_scene(std::uint64_t seed, int max_level);
 
-/// Runs a scene for 2 s and says what is wrong with it: something is not finite, or there is more energy than
-/// gravity, wind, bodies, pressure and a hand can have brought in. A cloth of several levels goes up and down
-/// through them, a level every 1 + seed % 16 steps; by its seed a hand pulls it, effects are switched off and
-/// on again.
-Complaint check(const SimulationDescription& scene);
+struct Failure {
+  enum class Kind { not_finite, energy };
+  Kind kind = Kind::not_finite;
+  std::string what;  ///< with figures, for the reader
+};
+/// What is wrong with a scene, if anything is.
+using Check = std::function<std::optional<Failure>(const SimulationDescription&)>;
 
-/// The smallest scene found that `fails`, by taking things away from one that does: balls, effects, pins, the
-/// turn, and so on down to the ordinary sheet at level 3.
-SimulationDescription shrink(SimulationDescription scene,
-                             const std::function<bool(const SimulationDescription&)>& fails);
+/// Runs a scene for 2 s: something is not finite, or there is more energy than gravity, wind, bodies,
+/// pressure, a hand and changes of level by the paper's rules can have brought in. A cloth of several levels
+/// goes up and down through them, a level every 1 + seed % 16 steps; by its seed a hand pulls it, effects are
+/// switched off and on again.
+std::optional<Failure> check(const SimulationDescription& scene);
+
+/// The smallest scene found with the same kind of failure, by taking things away from one that has it: balls,
+/// effects, pins, the turn, and so on down to the ordinary sheet at level 3.
+SimulationDescription shrink(SimulationDescription scene, const Check& check);
 
 }  // namespace weft::stability

@@ -1,5 +1,5 @@
 // Scenes drawn from fixed seeds, and the scenes that once failed. One that fails is shrunk and written beside
-// the table: repaired, it goes into regressions/.
+// the table; it goes into regressions/, and as long as it fails onto open_failures.txt.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,19 +18,19 @@ namespace {
 void check_seeds(std::uint64_t first, std::uint64_t count, int max_level) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const SimulationDescription drawn = random_scene(seed, max_level);
-    const Complaint complaint = check(drawn);
+    const std::optional<Failure> failure = check(drawn);
     const bool open = is_open("seed_" + std::to_string(seed));
-    EXPECT_FALSE(open && !complaint) << "seed " << seed << " passes now: take it off open_failures.txt";
-    if (!complaint || open) continue;
-    const SimulationDescription small =
-        shrink(drawn, [](const SimulationDescription& scene) { return check(scene).has_value(); });
+    EXPECT_FALSE(open && !failure) << "seed " << seed << " passes now: take it off open_failures.txt";
+    if (!failure || open) continue;
+    const SimulationDescription small = shrink(drawn, check);
     const std::filesystem::path folder = WEFT_STABILITY_REPORT;
     std::filesystem::create_directories(folder);
-    const auto file = folder / ("seed-" + std::to_string(seed) + ".json");
+    const auto file = folder / ("seed_" + std::to_string(seed) + ".json");
     std::ofstream(file) << scene_json(small).dump(1) << '\n';
-    std::ofstream(folder / ("seed-" + std::to_string(seed) + "-whole.json"))
+    std::ofstream(folder / ("seed_" + std::to_string(seed) + "_whole.json"))
         << scene_json(drawn).dump(1) << '\n';
-    ADD_FAILURE() << "seed " << seed << ": " << *complaint << "\nshrunk: " << *check(small) << ", " << file;
+    ADD_FAILURE() << "seed " << seed << ": " << failure->what << "\nshrunk: " << check(small)->what << ", "
+                  << file;
   }
 }
 
@@ -96,15 +96,20 @@ TEST(RandomScene, IsASceneFile) {
   }
 }
 
+SimulationDescription with_three_balls(const Check& made_up) {
+  std::uint64_t seed = 1;
+  while (!made_up(random_scene(seed, 4)) || random_scene(seed, 4).balls.size() < 3) ++seed;
+  return random_scene(seed, 4);
+}
+
 // A failure that hangs on two things at once is shrunk to these two.
 TEST(Shrink, LeavesWhatTheFailureNeeds) {
-  const auto fails = [](const SimulationDescription& scene) {
-    return !scene.balls.empty() && scene.cloths[0].material.structural > 100;
+  const auto made_up = [](const SimulationDescription& scene) -> std::optional<Failure> {
+    if (scene.balls.empty() || scene.cloths[0].material.structural <= 100) return {};
+    return Failure{Failure::Kind::energy, "a ball and a stiff cloth"};
   };
-  std::uint64_t seed = 1;
-  while (!fails(random_scene(seed, 4)) || random_scene(seed, 4).balls.size() < 3) ++seed;
-  const SimulationDescription small = shrink(random_scene(seed, 4), fails);
-  EXPECT_TRUE(fails(small));
+  const SimulationDescription small = shrink(with_three_balls(made_up), made_up);
+  EXPECT_TRUE(made_up(small));
   EXPECT_EQ(small.balls.size(), 1u);
   EXPECT_EQ(small.effects.size(), 0u);
   EXPECT_EQ(small.cloths[0].pins.size(), 0u);
@@ -112,30 +117,49 @@ TEST(Shrink, LeavesWhatTheFailureNeeds) {
   EXPECT_EQ(small.cloths[0].material, Material{});
 }
 
+// Without balls this fails, too, but otherwise: two balls are what the failure needs.
+TEST(Shrink, HoldsToTheKindOfFailure) {
+  const auto made_up = [](const SimulationDescription& scene) -> std::optional<Failure> {
+    if (scene.balls.size() < 2) return Failure{Failure::Kind::not_finite, "too few balls"};
+    return Failure{Failure::Kind::energy, "balls"};
+  };
+  const SimulationDescription small = shrink(with_three_balls(made_up), made_up);
+  EXPECT_EQ(small.balls.size(), 2u);
+  EXPECT_EQ(small.effects.size(), 0u);
+  EXPECT_EQ(small.seed, 1u);
+}
+
+TEST(Shrink, ThrowsForASceneThatHolds) {
+  const auto holds = [](const SimulationDescription&) { return std::optional<Failure>(); };
+  EXPECT_THROW(shrink(random_scene(1, 4), holds), std::invalid_argument);
+}
+
 class Regressions : public ::testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(Regressions, StayRepaired) {
   const scene::Result read = scene::load(GetParam().string());
   ASSERT_TRUE(std::holds_alternative<scene::Scene>(read));
-  EXPECT_EQ(check(std::get<scene::Scene>(read).simulation), Complaint{});
+  const std::optional<Failure> failure = check(std::get<scene::Scene>(read).simulation);
+  if (!is_open(GetParam().stem().string())) {
+    EXPECT_FALSE(failure) << failure->what;
+  } else if (failure) {
+    GTEST_SKIP() << "known to fail: " << failure->what;
+  } else {
+    ADD_FAILURE() << "passes now: take it off open_failures.txt";
+  }
 }
 
 std::vector<std::filesystem::path> regression_files() {
   std::vector<std::filesystem::path> files;
-  std::error_code none_yet;  // a folder without files is not in the repository
-  for (const auto& entry : std::filesystem::directory_iterator(WEFT_STABILITY_REGRESSIONS, none_yet)) {
+  for (const auto& entry : std::filesystem::directory_iterator(WEFT_STABILITY_REGRESSIONS)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Regressions, ::testing::ValuesIn(regression_files()), [](const auto& each) {
-  std::string name = each.param.stem().string();
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Regressions);
+INSTANTIATE_TEST_SUITE_P(Files, Regressions, ::testing::ValuesIn(regression_files()),
+                         [](const auto& each) { return each.param.stem().string(); });
 
 }  // namespace
 }  // namespace weft::stability

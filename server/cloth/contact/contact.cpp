@@ -120,9 +120,9 @@ std::uint32_t rows_near_way(const kernels::NodeBlock<Real>& block, const Solid& 
   return kernels::rows_inside(block, kernels::Sphere{place.x(), place.y(), place.z(), around * around});
 }
 
-bool all_yield(const std::vector<Solid>& solids) {
-  return std::all_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); });
-}
+bool stands_firm(const Solid& solid) { return !solid.yields(); }
+
+bool stands_firm_or_turns(const Solid& solid) { return !solid.yields() || solid.yields_turning(); }
 
 }  // namespace
 
@@ -142,8 +142,9 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     const double sweep = move.norm() + swing;
     const bool fast = longest + sweep > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
+    const double grazing = solid.yields_turning() ? kSlowMove * inner_radius(solid.shape) : 0;
     moving.push_back(
-        {&solid, solid.placed(substep.to), move, sweep, fast, solid.velocity, solid.spin, substep});
+        {&solid, solid.placed(substep.to), move, sweep, fast, grazing, solid.velocity, solid.spin, substep});
   }
   const std::vector<TileSolidPair>& pairs =
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});
@@ -157,7 +158,8 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 move = way.move(particles.position_at(row, col), particles.grid().index(row, col));
-        NodeContact<Real> node({particles, rounded_off, start != nullptr, not_held_}, row, col, move);
+        NodeContact<Real> node({particles, rounded_off, start != nullptr, not_held_, kept_aside_}, row, col,
+                               move);
         if (node.resolve(moving, touches_)) ++in_contact;
       });
   for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -165,6 +167,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     solids[i].go_on(moving[i].velocity, moving[i].spin, substep.to, substep.step_seconds());
   }
   not_held_.clear();
+  kept_aside_.clear();
   counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
   return in_contact;
 }
@@ -172,7 +175,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
 template <class Real>
 const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles,
                                                 const std::vector<Solid>& solids, const Substep& substep) {
-  if (all_yield(solids)) return touches_;
+  if (std::none_of(solids.begin(), solids.end(), stands_firm)) return touches_;
   const std::size_t count = particles.grid().size();
   const double h = substep.seconds;
   ahead_ = particles.position;
@@ -180,7 +183,7 @@ const std::vector<Touch>& Contact<Real>::expect(const Particles<Real>& particles
                       static_cast<Real>(h), count);
   kernels::add_scaled(kernels::components(ahead_), kernels::components(particles.acceleration),
                       static_cast<Real>(h * h), count);
-  find_inside(particles, ahead_, solids, substep, touches_);
+  find_inside(particles, ahead_, solids, substep, stands_firm, touches_);
   std::sort(touches_.begin(), touches_.end());
   touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
   return touches_;
@@ -190,26 +193,28 @@ template <class Real>
 const std::vector<Touch>& Contact<Real>::inside(const Particles<Real>& particles,
                                                 const std::vector<Solid>& solids, const Substep& substep) {
   inside_.clear();
-  if (!all_yield(solids)) find_inside(particles, particles.position, solids, substep, inside_);
+  if (std::any_of(solids.begin(), solids.end(), stands_firm_or_turns)) {
+    find_inside(particles, particles.position, solids, substep, stands_firm_or_turns, inside_);
+  }
   return inside_;
 }
 
 template <class Real>
 void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
                                 const std::vector<Solid>& solids, const Substep& substep,
-                                std::vector<Touch>& found) {
+                                bool (*sought)(const Solid&), std::vector<Touch>& found) {
   for_each_struck(
       position, broad_phase_.find_pairs(position, solids, {substep.to, substep.to, 0}),
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
-        return solid.yields() ? std::uint32_t{0} : rows_inside(block, solid.placed(substep.to));
+        return sought(solid) ? rows_inside(block, solid.placed(substep.to)) : std::uint32_t{0};
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 place(double(position.x.at(row, col)), double(position.y.at(row, col)),
                          double(position.z.at(row, col)));
         for (const Solid& solid : solids) {
-          if (solid.yields() || !solid.placed(substep.to).contains(place)) continue;
+          if (!sought(solid) || !solid.placed(substep.to).contains(place)) continue;
           found.push_back({particles.grid().index(row, col), solid.id});
         }
       });

@@ -77,8 +77,8 @@ class Contact {
   /// substep's end if they go on with the velocity and the acceleration they have.
   const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
-  /// The free nodes that are now in a solid that does not yield, as that is at the substep's end. Valid until
-  /// the next call.
+  /// The free nodes that are now in a solid that does not yield, or in a body, as it is at the substep's end.
+  /// Valid until the next call.
   const std::vector<Touch>& inside(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
   /// Before a substep: the free nodes that will pass the surface of a solid that yields if all go on as they
@@ -90,6 +90,9 @@ class Contact {
   /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
   /// its side: resolve does not stop them.
   void let_slide_off(const std::vector<Touch>& not_held) { not_held_ = not_held; }
+  /// Before resolve: constraints have kept these on their side of a body; ordered. Their ways are not looked
+  /// at again: where one cuts an edge they would be put back onto the face that they came from.
+  void trust(const std::vector<Touch>& kept_aside) { kept_aside_ = kept_aside; }
   /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.
   /// Returns how many resolve did not find.
   int keep(const std::vector<Touch>& pressed);
@@ -107,14 +110,15 @@ class Contact {
   void for_each_struck(const VectorField<Real>& position, const std::vector<TileSolidPair>& pairs,
                        Struck struck, Visit visit);
 
-  /// Adds to `found` the free nodes that are, at these positions, in a solid that does not yield, as that is
-  /// at the substep's end.
+  /// Adds to `found` the free nodes that are, at these positions, in a solid that is `sought`, as that is at
+  /// the substep's end.
   void find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
-                   const std::vector<Solid>& solids, const Substep& substep, std::vector<Touch>& found);
+                   const std::vector<Solid>& solids, const Substep& substep, bool (*sought)(const Solid&),
+                   std::vector<Touch>& found);
 
   BroadPhase<Real> broad_phase_;
   ContactCounters counters_;
-  std::vector<Touch> touches_, inside_, not_held_;
+  std::vector<Touch> touches_, inside_, not_held_, kept_aside_;
   std::vector<Arrival> arrivals_;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
 };

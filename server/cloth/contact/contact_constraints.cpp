@@ -57,15 +57,13 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
   // `surface` as it will be beside the node if both go on as they go.
-  const auto hold = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
-    constraints_.push_back(
-        held_by(touch, solid, surface, at(position, touch.node), h * at(velocity, touch.node)));
-    if (!solid.yields()) return;
-    Constraint& made = constraints_.back();
-    made.body = body_of(static_cast<std::size_t>(&solid - solids.data()), solid, bodies);
-    if (!solid.yields_turning()) return;
-    const Vec3 guess = at(position, touch.node) + h * at(velocity, touch.node);
-    made.arm = guess - surface.distance * surface.normal - solid.at(substep.to);
+  const auto holding = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
+    const Vec3 place = at(position, touch.node), way = h * at(velocity, touch.node);
+    Constraint made = held_by(touch, solid, surface, place, way);
+    made.body = body_of(solid, solids, bodies);
+    if (solid.yields_turning())
+      made.arm = place + way - surface.distance * surface.normal - solid.at(substep.to);
+    return made;
   };
   // Pressed onto a solid they touch it, be they outside by a hair.
   std::vector<Touch> all = touches;
@@ -82,7 +80,7 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     const Surface surface = solid->placed(substep.to).surface(guess);
     // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
     if (surface.distance <= touching_distance(h)) {
-      hold(touch, *solid, surface);
+      constraints_.push_back(holding(touch, *solid, surface));
     } else if (lay_on(*solid, at(position, touch.node))) {
       not_held_.push_back(touch);
     }
@@ -91,8 +89,12 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   for (const Arrival& arrival : arrivals) {
     const auto end = constraints_.begin() + touching;
     const auto same = std::lower_bound(constraints_.begin(), end, arrival.touch, is_before);
+    const Solid& solid = solids[arrival.solid];
     if (same == end || same->touch != arrival.touch) {
-      hold(arrival.touch, solids[arrival.solid], arrival.surface);
+      constraints_.push_back(holding(arrival.touch, solid, arrival.surface));
+    } else if (solid.yields_turning()) {
+      // Past an edge the face that it goes into, not the one that it would be nearest to inside.
+      *same = holding(arrival.touch, solid, arrival.surface);
     }
   }
   if (!arrivals.empty()) {
@@ -146,8 +148,8 @@ bool ContactConstraints<Real>::holds_already(const Touch& touch, const Vec3& nor
 template <class Real>
 bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
                                            const std::vector<Solid>& solids,
-                                           kernels::Components<const Real> move, double links_stiffness,
-                                           double missed) {
+                                           kernels::Components<const Real> move, AttachedBodies<Real>& bodies,
+                                           double links_stiffness, double missed) {
   const kernels::Components<const Real> position = kernels::components(particles.position);
   std::vector<Constraint> more;
   double energy = 0;
@@ -157,7 +159,15 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
     const Surface surface = solid.placed(substep_.to).surface(place);
     if (holds_already(touch, surface.normal)) continue;
     energy += links_stiffness * surface.distance * surface.distance / 2;
-    more.push_back(held_by(touch, solid, surface, place - way, way));
+    Constraint made = held_by(touch, solid, surface, place - way, way);
+    made.body = body_of(solid, solids, bodies);
+    if (made.body) {
+      made.arm = place - surface.distance * surface.normal - solid.at(substep_.to);
+      const Vec3 gone = bodies.move(*made.body, made.arm);
+      made.distance -= made.normal.dot(gone);
+      made.solid_move -= gone;
+    }
+    more.push_back(made);
   }
   if (energy <= missed) return false;
   constraints_.insert(constraints_.end(), more.begin(), more.end());
@@ -223,10 +233,11 @@ bool ContactConstraints<Real>::lay_on(const Solid& solid, const Vec3& place) con
   return solid.placed(substep_.from).may_touch(place, touching_distance(substep_.seconds));
 }
 
-/// The body that the solid is, a new one if need be.
 template <class Real>
-std::optional<int> ContactConstraints<Real>::body_of(std::size_t index, const Solid& solid,
+std::optional<int> ContactConstraints<Real>::body_of(const Solid& solid, const std::vector<Solid>& solids,
                                                      AttachedBodies<Real>& bodies) {
+  if (!solid.yields()) return {};
+  const auto index = static_cast<std::size_t>(&solid - solids.data());
   const auto known = std::find(yielding_.begin(), yielding_.end(), index);
   if (known != yielding_.end()) return static_cast<int>(known - yielding_.begin());
   yielding_.push_back(index);
@@ -297,18 +308,27 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
                                                            const AttachedBodies<Real>& bodies,
                                                            std::vector<Solid>& solids) {
   pressed_.clear();
+  kept_aside_.clear();
   for (Constraint& c : constraints_) {
     const double depth = c.distance - c.normal.dot(move_of(c, move, bodies));
     c.force = c.released ? 0 : std::max(0.0, c.stiffness * depth);
     if (c.body && c.force > 0) pressed_.push_back(c.touch);
+    if (c.body && solid_of(c.touch, solids).yields_turning()) kept_aside_.push_back(c.touch);
   }
+  solids = bent(std::move(solids), bodies);
+  return pressed_;
+}
+
+template <class Real>
+std::vector<Solid> ContactConstraints<Real>::bent(std::vector<Solid> solids,
+                                                  const AttachedBodies<Real>& bodies) const {
   for (std::size_t body = 0; body < yielding_.size(); ++body) {
     Solid& solid = solids[yielding_[body]];
     const int index = static_cast<int>(body);
     solid.go_on(solid.velocity + bodies.move(index) / substep_.seconds,
                 solid.spin + bodies.turn(index) / substep_.seconds, substep_.from, substep_.step_seconds());
   }
-  return pressed_;
+  return solids;
 }
 
 template <class Real>

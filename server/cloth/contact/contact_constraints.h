@@ -40,13 +40,17 @@ class ContactConstraints {
   /// False if it holds no more than before.
   bool hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
                    const std::vector<Solid>& solids, kernels::Components<const Real> move,
-                   double links_stiffness, double missed);
+                   AttachedBodies<Real>& bodies, double links_stiffness, double missed);
+  /// The solids as they go by the system's solution so far.
+  std::vector<Solid> bent(std::vector<Solid> solids, const AttachedBodies<Real>& bodies) const;
   /// Between Newton iterations: lets go of the nodes that lay on a solid when the substep began and at `move`
   /// have slid off its side. False if there are none.
   bool let_go_of_slid_off(const Particles<Real>& particles, const std::vector<Solid>& solids,
                           kernels::Components<const Real> move, const AttachedBodies<Real>& bodies);
   /// What lay on a solid when the substep began and is not held to it, as it leaves or has slid off; ordered.
   const std::vector<Touch>& not_held() const { return not_held_; }
+  /// After finish: what was held on its side of a body, or came off on that side; ordered.
+  const std::vector<Touch>& kept_aside() const { return kept_aside_; }
   void clear() {
     constraints_.clear();
     not_held_.clear();
@@ -103,12 +107,14 @@ class ContactConstraints {
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
   bool lay_on(const Solid& solid, const Vec3& place) const;
-  std::optional<int> body_of(std::size_t index, const Solid& solid, AttachedBodies<Real>& bodies);
+  /// The body that the solid is, a new one if need be; none if it does not yield.
+  std::optional<int> body_of(const Solid& solid, const std::vector<Solid>& solids,
+                             AttachedBodies<Real>& bodies);
   static Vec3 move_of(const Constraint& c, kernels::Components<const Real> move,
                       const AttachedBodies<Real>& bodies);
 
   std::vector<Constraint> constraints_, last_;
-  std::vector<Touch> pressed_, not_held_;
+  std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   Substep substep_;
 };

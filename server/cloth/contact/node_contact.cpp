@@ -99,6 +99,7 @@ auto NodeContact<Real>::first_meeting(const MovingSolid& moving) const -> std::o
   const int chords = moving.chords();
   Vec3 from = position_ - move_ + moving.move_of(start_, 0);
   if (moving.shape.contains(from)) return {};
+  if ((position_ - from).squaredNorm() < moving.grazing * moving.grazing) return {};
   for (int chord = 1; chord <= chords; ++chord) {
     const double share = static_cast<double>(chord) / chords;
     const Vec3 place = start_ + share * move_;
@@ -125,6 +126,7 @@ bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vec
   std::size_t which = 0;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (!solids[i].fast) continue;
+    if (std::binary_search(kept_aside_.begin(), kept_aside_.end(), touch(*solids[i].solid))) continue;
     const std::optional<Meeting> meeting = first_meeting(solids[i]);
     if (!meeting || (first && first->fraction <= meeting->fraction)) continue;
     if (slides_off(solids[i])) {

@@ -20,6 +20,7 @@ struct MovingSolid {
   Vec3 move;          ///< of its centre in the substep, m
   double sweep;       ///< the farthest that any of its points moves, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
+  double grazing;     ///< m; but for those that go less, as seen from it: at most they cut an edge
   Vec3 velocity;      ///< with what the nodes so far gave it, m/s
   Vec3 spin;          ///< the same, rad/s
   Substep substep;
@@ -51,7 +52,8 @@ class NodeContact {
     /// Friction has borne on the way: it left a slip of at most its coefficient times the depth it left, as
     /// contact springs are as stiff along the surface as across it (ContactConstraints).
     bool slip_is_left;
-    const std::vector<Touch>& not_held;  ///< to what it lay on (Contact::let_slide_off)
+    const std::vector<Touch>& not_held;    ///< to what it lay on (Contact::let_slide_off)
+    const std::vector<Touch>& kept_aside;  ///< Contact::trust
   };
   /// `move` is the node's in the substep.
   NodeContact(const State& state, int row, int col, const Vec3& move)
@@ -63,7 +65,8 @@ class NodeContact {
         start_(position_ - move),
         move_(move),
         slip_is_left_(state.slip_is_left),
-        not_held_(state.not_held) {}
+        not_held_(state.not_held),
+        kept_aside_(state.kept_aside) {}
 
   /// Brings the node out of all solids (pinched between two it stays with the one that moves least), and back
   /// from beyond those it passed through; those that yield get what it gives them, `touches` what it met.
@@ -104,7 +107,7 @@ class NodeContact {
   int row_, col_;
   Vec3 position_, start_, move_;
   bool slip_is_left_;
-  const std::vector<Touch>& not_held_;
+  const std::vector<Touch>&not_held_, &kept_aside_;
 };
 
 extern template class NodeContact<float>;

@@ -22,8 +22,13 @@ constexpr double kRoughSpring = 8;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
 /// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
-/// tolerance it is then 0.2 mm/s on 2 m.
-constexpr double kSlow = 5e-3;
+/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps free corners swinging at what puts to sleep.
+constexpr double kSlow = 5e-4;
+/// The same where rounding is what is left of such an error: where the stiffest mode's squared frequency
+/// times h^2 has no digit less than the scalar.
+constexpr double kSlowStiff = 5e-3;
+/// Sizes of the cloth a second. A slower cloth is near rest.
+constexpr double kNearRest = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
 
@@ -108,6 +113,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
       contact->let_slide_off(contacts.not_held());
+      contact->trust(contacts.kept_aside());
       report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
@@ -124,13 +130,17 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
     state_.emplace(grid, forces.springs->has_bending(), forces.plate, forces.seam != nullptr);
-    state_->slow = kSlow * extent(forces.springs->families(), grid);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
   const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
   if (state_->h != h || tore) {
     state_->h = h;
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
+    const double stiffest = forces.springs->max_squared_frequency(particles.mass) * h * h;
+    const bool rounded = stiffest * double(std::numeric_limits<Real>::epsilon()) > 1;
+    const double size = extent(forces.springs->families(), grid);
+    state_->slow = (rounded ? kSlowStiff : kSlow) * size;
+    state_->near_rest = kNearRest * size;
   }
   if (state_->soft) forces.springs = &*state_->soft;
   if (forces.layers == nullptr) state_->system.couplings().clear();
@@ -163,7 +173,7 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Layer
   const double share = parameters_.tolerance * parameters_.tolerance;
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
-  const bool near_rest = kinetic <= mass * s.slow * s.slow;
+  const bool near_rest = kinetic <= mass * s.near_rest * s.near_rest;
   s.target.share = near_rest && !s.contacts.empty() ? 0 : share;
   s.target.least = share * (kinetic + mass * s.slow * s.slow);
   s.target.most = std::max(s.target.least, share * s.scale);
@@ -312,7 +322,10 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
   const auto& [contact, solids, part] = surroundings_;
   if (contact == nullptr) return false;
   State& s = *state_;
-  if (!s.contacts.hold_inside(contact->inside(particles, *solids, part), particles, *solids, s.move,
+  AttachedBodies<Real>& bodies = s.system.bodies();
+  const std::vector<Solid> bent = bodies.empty() ? std::vector<Solid>{} : s.contacts.bent(*solids, bodies);
+  const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
+  if (!s.contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
                               springs.node_stiffness(), missed))
     return false;
   s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });

@@ -61,6 +61,7 @@ class Implicit final : public Integrator<Real> {
     std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
     double scale = 0;                       ///< energy that the substep's motion is of, J
     double slow = 0;                        ///< m/s, as slow as motion need be told from rest
+    double near_rest = 0;                   ///< m/s, of a cloth that will soon be
     SolveTarget target;                     ///< of the substep's solves
     bool smooth = true;                     ///< the substep was not taken back
     bool sound = true;                      ///< a move was found in every substep of the step

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "cloth/solver/node_vector.h"
 
@@ -220,6 +221,10 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
   ++rounds_;
   for (std::size_t i = 0; i < own_.end.size(); ++i) own_.end[i] = at(position, i);
   met_.assign(own_.end.size(), 0);
+  // By the nodes they join, the first where several do; made when something meets. In a crumpled lump
+  // thousands of pairs meet among tens of thousands.
+  std::map<std::pair<std::array<std::size_t, 4>, bool>, std::size_t> known;
+  const auto nodes_of = [](const Constraint& c) { return std::pair(c.coupling.node, c.edges); };
   bool any = false;
   for (const FeaturePair& features : search_.find(own_, kPairsInSight * parameters_.net_gap)) {
     const std::optional<LayerPair> pair = meeting(features);
@@ -227,15 +232,17 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
     Constraint c = constraint(*pair);
     c.wanted = std::max(c.wanted, kMeetingPart * parameters_.gap);
     c.room = c.distance - c.wanted;
-    const auto known = std::find_if(constraints_.begin(), constraints_.end(), [&](const Constraint& other) {
-      return other.coupling.node == c.coupling.node && other.edges == c.edges;
-    });
-    if (known != constraints_.end()) {
-      c.pressed = std::max(0.0, push(*known, move));
-      c.stiffness = known->stiffness;
-      *known = c;
-    } else {
+    if (!any) {
+      for (std::size_t i = 0; i < constraints_.size(); ++i) known.try_emplace(nodes_of(constraints_[i]), i);
+    }
+    const auto [entry, is_new] = known.try_emplace(nodes_of(c), constraints_.size());
+    if (is_new) {
       constraints_.push_back(c);
+    } else {
+      Constraint& before = constraints_[entry->second];
+      c.pressed = std::max(0.0, push(before, move));
+      c.stiffness = before.stiffness;
+      before = c;
     }
     for (const std::size_t node : c.coupling.node) met_[node] = 1;
     any = true;
