@@ -69,6 +69,7 @@ void Cloth<Real>::fill() {
   } else if (!gas_ || gas_->inflation() != *filling_) {
     const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
     gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
+    if (!gas_->fills(time_) && !is_implicit(guard_.method())) unsettled_ = Unsettled::by_gas;
   }
 }
 

@@ -88,7 +88,9 @@ struct InflationEffect {
   double pressure = 100;  ///< Pa; finite. Below 0 it sucks; that of gas is above -p_a.
   /// What the gas has this pressure in, m3; > 0. Default: there is a pump, which keeps the pressure up.
   std::optional<double> volume = {};
-  double fill_time = 1;  ///< from when the effect is there, during which gas is poured in, s; >= 0
+  /// From when the effect is there, during which gas is poured in, s; >= 0. 0: it is there at once, and the
+  /// bag is blown up without motion (Unsettled::by_gas).
+  double fill_time = 1;
   bool operator==(const InflationEffect&) const = default;
   static constexpr const char* kName = "inflation";
 };

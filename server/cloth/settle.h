@@ -12,6 +12,10 @@ enum class Unsettled {
   /// A solid was put onto nodes: a ball of twice the size in a drape has a fifth of a metre to lift them, and
   /// a step that did so would send the hem off at 25 m/s.
   by_solid,
+  /// Gas is there at once: 0.1 m3 in a bag that lies flat have 25 atmospheres and do 23 kJ of work before
+  /// they have none. As motion that crumples it: a bag of 1 m a side that holds 0.1 J in its springs while it
+  /// is smooth is left with 4 J, held by its own folds (level 5, explicit methods).
+  by_gas,
 };
 
 /// Whether a solid has just been put onto free nodes, as all are when the step begins.
