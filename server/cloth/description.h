@@ -250,7 +250,9 @@ struct Bdf2Description : ImplicitParameters {
 /// Every spring a constraint, projected once a substep: bounded whatever the stiffness, softer than asked for
 /// until the substeps are many (xpbd.h says by how much).
 struct XpbdDescription {
-  int substeps = 40;  ///< per step; >= 1. Twice as many leave a quarter of the excess stretch.
+  /// Per step; >= 1. Twice as many leave a quarter of the excess stretch. In violent motion up to 4 times
+  /// that.
+  int substeps = 40;
   static constexpr const char* kName = "xpbd";
 };
 using IntegratorDescription =
