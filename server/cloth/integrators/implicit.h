@@ -68,6 +68,8 @@ class Implicit final : public Integrator<Real> {
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
   void begin_substep(const Particles<Real>& particles, const LayerContacts<Real>* layers, double h);
+  /// A body may lie on the cloth.
+  bool bears_body();
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
   /// Adds the springs' damping, by the nodes' moves so far, to the forces.
