@@ -5,12 +5,9 @@
 #include <utility>
 
 #include "cloth/clock.h"
-<<<<<<< HEAD
 #include "cloth/kernels/limited_kernels.h"
-#include "cloth/kernels/torn_kernels.h"
-=======
 #include "cloth/kernels/state_kernels.h"
->>>>>>> xrest
+#include "cloth/kernels/torn_kernels.h"
 
 namespace weft {
 namespace {

@@ -12,7 +12,7 @@ constexpr int kRounds = 4, kSearches = 2;
 /// In gaps: pairs that come as near are looked at; and are searched.
 constexpr double kInSight = 1.5, kMargin = 10;
 /// Part of what they lack of the gap that they are led apart in a substep.
-constexpr double kLedApart = 0.1;
+constexpr double kLedApartASubstep = 0.1;
 
 /// Of way(i) over the free nodes.
 template <class Way>
@@ -118,7 +118,8 @@ bool SubstepNet::push_apart(const Near& near) {
     way += near.weight[i] * (own_.end[n] - own_.start[n]);
     velocity += near.weight[i] * own_.velocity[n];
   }
-  const double wanted = near.distance < gap_ ? near.distance + kLedApart * (gap_ - near.distance) : gap_;
+  const double wanted =
+      near.distance < gap_ ? near.distance + kLedApartASubstep * (gap_ - near.distance) : gap_;
   const double lack = wanted - near.distance - near.normal.dot(way);
   if (!(lack > 0)) return false;
   const double approach = std::max(0.0, -near.normal.dot(velocity));

@@ -317,6 +317,28 @@ const Collision kCollisions[] = {
 INSTANTIATE_TEST_SUITE_P(Collisions, SheetAndBox, ::testing::ValuesIn(kCollisions),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+TEST(DynamicBox, ComesToRestOnASheet) {
+  // Held by its four corners; at rest is what is slower than the speed below which a cloth may sleep.
+  for (const IntegratorDescription& integrator :
+       {IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {
+    SimulationDescription scene = test::hung_scene();
+    scene.cloths[0].perturbation = 0;
+    scene.cloths[0].orientation = Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX());
+    scene.cloths[0].pins.insert(scene.cloths[0].pins.end(), {{0, 0, 1, 1}, {1, 1, 1, 1}});
+    scene.integrator = integrator;
+    scene.obstacles = {flying_box(1, {0, 0.22, 0}, {0, 0, 0}, {0, 0, 0})};
+    scene.obstacles[0].friction = 0.5;
+    Simulation<float> simulation(scene);
+    run(simulation, 14 * 60);
+    const Obstacle& box = simulation.colliders().obstacles()[0];
+    for (int step = 0; step < 60; ++step) {
+      simulation.step();
+      ASSERT_LT(box.body->velocity().norm(), scene.sleep_speed) << "step " << step;
+    }
+    EXPECT_GT(simulation.report(0).nodes_in_contact, 0);
+  }
+}
+
 // --- Commands, resets, faults ---
 
 TEST(DynamicBox, FallsFreely) {
