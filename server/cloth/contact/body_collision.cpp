@@ -46,7 +46,7 @@ Eigen::AlignedBox3d swept_box(const Solid& solid) {
   return {box.min() - Vec3::Constant(more), box.max() + Vec3::Constant(more)};
 }
 
-bool collect(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* pairs) {
+bool add_overlap(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* pairs) {
   static_cast<std::vector<Pair>*>(pairs)->emplace_back(BoxTree::index_of(a), BoxTree::index_of(b));
   return false;  // go on
 }
@@ -271,7 +271,7 @@ struct BodyCollision::Impl {
       tree.set(i, swept_box(solids[static_cast<std::size_t>(bounded[i])]));
     }
     tree.update();
-    tree.manager().collide(&pairs, collect);
+    tree.manager().collide(&pairs, add_overlap);
     for (Pair& pair : pairs) {
       pair = std::minmax(bounded[static_cast<std::size_t>(pair.first)],
                          bounded[static_cast<std::size_t>(pair.second)]);

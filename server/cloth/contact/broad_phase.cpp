@@ -31,7 +31,7 @@ AlignedBox grown(const AlignedBox& box, double by) {
 }
 
 /// FCL calls it for each tile and solid whose boxes overlap, in the order of its traversal.
-bool collect(fcl::CollisionObjectd* tile, fcl::CollisionObjectd* solid, void* pairs) {
+bool add_pair(fcl::CollisionObjectd* tile, fcl::CollisionObjectd* solid, void* pairs) {
   static_cast<std::vector<TileSolidPair>*>(pairs)->push_back(
       {BoxTree::index_of(tile), BoxTree::index_of(solid)});
   return false;  // go on
@@ -81,7 +81,7 @@ struct BroadPhase<Real>::Impl {
     if (!solids_hold && !fit_solids()) return false;
     if (tiles_hold && solids_hold) return true;
     candidates.clear();
-    tile_tree.manager().collide(&solid_tree.manager(), &candidates, collect);
+    tile_tree.manager().collide(&solid_tree.manager(), &candidates, add_pair);
     for (TileSolidPair& pair : candidates) pair.solid = bounded[static_cast<std::size_t>(pair.solid)];
     for (int tile = 0; tile < static_cast<int>(tiles.size()); ++tile) {
       for (const HalfSpaceBelow& half_space : half_spaces) candidates.push_back({tile, half_space.solid});

@@ -50,7 +50,8 @@ void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Eigen::
 template <class Real>
 void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
                                      const Particles<Real>& particles, const std::vector<Solid>& solids,
-                                     const Substep& substep, AttachedBodies<Real>& bodies) {
+                                     const Substep& substep, bool near_rest, AttachedBodies<Real>& bodies) {
+  near_rest_ = near_rest;
   std::swap(last_, constraints_);
   clear();
   bodies.clear();
@@ -135,7 +136,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
                   holds,
                   along(normal, slip).norm(),
                   inner_radius(solid.shape)};
-  if (held) made.grip = along(normal, same->grip);
+  if (held && near_rest_) made.grip = along(normal, same->grip);
   if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
   return made;
 }

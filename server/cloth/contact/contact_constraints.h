@@ -11,9 +11,9 @@ namespace weft {
 /// Contacts as a part of an implicit step's linear system. A node that touches a solid or will in the step is
 /// held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along with the
 /// solid by Coulomb friction: a force of at most friction times the normal force, that of the step before. A
-/// spring that turns out to pull is taken away. A node that sticks goes on with the force that held it: found
-/// anew in each step it would have to slip for it each time, and a drape would creep. What little the others
-/// give, and nodes that were not expected, Contact::resolve puts right after the step.
+/// spring that turns out to pull is taken away. Near rest a node that sticks goes on with the force that held
+/// it: found anew in each step it would have to slip for it each time, and a drape would creep. What little
+/// the others give, and nodes that were not expected, Contact::resolve puts right after the step.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
 /// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
@@ -32,10 +32,11 @@ template <class Real>
 class ContactConstraints {
  public:
   /// Nodes that touch or will, and those that arrive at a solid that yields, with forces from the last step;
-  /// positions and velocities as the substep begins. `bodies` become the solids that yield and are touched.
+  /// positions and velocities as the substep begins. The cloth may be near rest. `bodies` become the solids
+  /// that yield and are touched.
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
-             AttachedBodies<Real>& bodies);
+             bool near_rest, AttachedBodies<Real>& bodies);
   /// Between Newton iterations: holds the nodes that are inside at `move` and not held yet, if it takes more
   /// energy than `missed`, J, to push them out one by one against links of this stiffness at a node, N/m.
   /// False if it holds no more than before.
@@ -121,6 +122,7 @@ class ContactConstraints {
   std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   Substep substep_;
+  bool near_rest_ = false;
 };
 
 extern template class ContactConstraints<float>;

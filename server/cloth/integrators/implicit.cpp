@@ -92,9 +92,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
+    measure_motion(particles);
     if (contact != nullptr) {
       contacts.begin(contact->expect(particles, solids, part), contact->foresee(particles, solids, part),
-                     particles, solids, part, state_->system.bodies());
+                     particles, solids, part, state_->near_rest, state_->system.bodies());
     } else {
       contacts.clear();
       state_->system.bodies().clear();
@@ -138,9 +139,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
     const double stiffest = forces.springs->max_squared_frequency(particles.mass) * h * h;
     const bool rounded = stiffest * double(std::numeric_limits<Real>::epsilon()) > 1;
-    const double size = extent(forces.springs->families(), grid);
-    state_->slow = (rounded ? kSlowStiff : kSlow) * size;
-    state_->near_rest = kNearRest * size;
+    state_->size = extent(forces.springs->families(), grid);
+    state_->slow = (rounded ? kSlowStiff : kSlow) * state_->size;
   }
   if (state_->soft) forces.springs = &*state_->soft;
   if (forces.layers == nullptr) state_->system.couplings().clear();
@@ -148,6 +148,17 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
+}
+
+template <class Real>
+void Implicit<Real>::measure_motion(const Particles<Real>& particles) {
+  State& s = *state_;
+  s.mass = 0;
+  for (const Real node : particles.mass.values()) s.mass += static_cast<double>(node);
+  s.kinetic = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
+                                             particles.grid());
+  const double slow = kNearRest * s.size;
+  s.near_rest = s.kinetic <= s.mass * slow * slow;
 }
 
 template <class Real>
@@ -164,18 +175,14 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Layer
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
   begin_formula(h);
   const double speed_given = standard_gravity().norm() * h;
-  double mass = 0;
-  for (const Real node : particles.mass.values()) mass += static_cast<double>(node);
-  const double kinetic = kernels::weighted_square<Real>(particles.mass.row(0), velocity, particles.grid());
-  s.scale = kinetic + mass * speed_given * speed_given;
+  s.scale = s.kinetic + s.mass * speed_given * speed_given;
   // The error allowed is a share of the speeds that the nodes have or are given, at most by gravity: on its
   // way to rest a cloth is solved ever more finely, as errors that stayed the same would shake it for ever.
   const double share = parameters_.tolerance * parameters_.tolerance;
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
-  const bool near_rest = kinetic <= mass * s.near_rest * s.near_rest;
-  s.target.share = near_rest && !s.contacts.empty() ? 0 : share;
-  s.target.least = share * (kinetic + mass * s.slow * s.slow);
+  s.target.share = s.near_rest && !s.contacts.empty() ? 0 : share;
+  s.target.least = share * (s.kinetic + s.mass * s.slow * s.slow);
   s.target.most = std::max(s.target.least, share * s.scale);
 }
 
