@@ -17,7 +17,7 @@ TEST_P(HardCase, Survives) {
                            .starts_with("Nightly");
   const Result result = run(*hard_case, setup, nightly);
   keep(row_of(*hard_case, setup, result), std::filesystem::path(WEFT_STABILITY_REPORT) / "rows");
-  const bool open = !nightly && is_open(name_of(GetParam()));
+  const bool open = is_open(name_of(GetParam()));
   if (result.verdict != Verdict::fail) {
     EXPECT_FALSE(open && !result.cut_short) << "passes now: take it off open_failures.txt";
     return;

@@ -22,7 +22,7 @@ using Pair = std::pair<int, int>;
 
 /// Of the smaller of two inner radii: what is nearer counts, as an impulse may bring it on; what moves
 /// farther may have passed through.
-constexpr double kMargin = 0.5;
+constexpr double kBodyMargin = 0.5;
 /// Of two solids' contacts these are enough to hold them.
 constexpr std::size_t kMostContacts = 8;
 
@@ -41,7 +41,7 @@ double most_move(const Solid& solid) {
 
 Eigen::AlignedBox3d swept_box(const Solid& solid) {
   Eigen::AlignedBox3d box = solid.placed(1).bounds().merged(solid.placed(0).bounds());
-  double more = kMargin * inner_radius(solid.shape);
+  double more = kBodyMargin * inner_radius(solid.shape);
   if (solid.turns()) more += solid.turn.norm() * outer_radius(solid.shape);
   return {box.min() - Vec3::Constant(more), box.max() + Vec3::Constant(more)};
 }
@@ -95,7 +95,7 @@ class Meeting {
       : index_(pair),
         a_(solids[static_cast<std::size_t>(pair.first)]),
         b_(solids[static_cast<std::size_t>(pair.second)]),
-        margin_(kMargin * std::min(inner_radius(a_.shape), inner_radius(b_.shape))),
+        margin_(kBodyMargin * std::min(inner_radius(a_.shape), inner_radius(b_.shape))),
         dt_(dt),
         contacts_(contacts),
         first_(contacts.size()) {}

@@ -13,7 +13,7 @@ using Points = std::vector<Vec3>;
 
 /// Of a shape's outer radius: how far its corners may lie below its highest one and still be of one face; of
 /// the face that cuts and of the one that is cut, which may lie on it at an angle.
-constexpr double kFlat = 0.01, kTilted = 0.1;
+constexpr double kFlatFace = 0.01, kTilted = 0.1;
 
 /// The shape's corners in the world.
 std::vector<Corner> placed_corners(const PlacedShape& shape) {
@@ -121,7 +121,7 @@ struct Side {
 
 /// The points over the side's face; none if it has none there.
 Points over_face_of(const Side& side, Vec3& outwards) {
-  const Points reference = face(*side.corners, side.outwards, kFlat * side.size);
+  const Points reference = face(*side.corners, side.outwards, kFlatFace * side.size);
   if (reference.size() < 3) return {};
   const Vec3 area = area_vector(reference);
   outwards = area.normalized();  // FCL's may be off by a little
@@ -194,7 +194,8 @@ Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& nor
   if (found.points.empty()) {
     found.normal = normal;
     const double plane = reach(of_b, normal), gap = -reach(of_a, -normal) - plane;
-    const Points edge_a = face(of_a, -normal, kTilted * size_a), edge_b = face(of_b, normal, kFlat * size_b);
+    const Points edge_a = face(of_a, -normal, kTilted * size_a),
+                 edge_b = face(of_b, normal, kFlatFace * size_b);
     if (edge_a.size() == 2 && edge_b.size() == 2 && parallel(edge_a, edge_b)) {
       keep(over(edge_b, edge_a, normal));
       for (Manifold::Point& point : found.points) point.gap = normal.dot(point.place) - plane;

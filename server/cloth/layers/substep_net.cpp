@@ -8,9 +8,9 @@ namespace weft {
 namespace {
 
 /// Of impulses, a substep; and own searches, a step.
-constexpr int kRounds = 4, kSearches = 2;
+constexpr int kSubstepRounds = 4, kSearches = 2;
 /// In gaps: pairs that come as near are looked at; and are searched.
-constexpr double kInSight = 1.5, kMargin = 10;
+constexpr double kSubstepSight = 1.5, kSubstepMargin = 10;
 /// Part of what they lack of the gap that they are led apart in a substep.
 constexpr double kLedApartASubstep = 0.1;
 
@@ -59,7 +59,7 @@ void SubstepNet::measure_ways() {
 
 bool SubstepNet::covered(double to) const {
   // Each of two features may have come nearer by half of the room.
-  const double room = (margin_ - kInSight * gap_) / 2;
+  const double room = (margin_ - kSubstepSight * gap_) / 2;
   if (room <= 0) return false;
   const double part = (to - found_at_) / (1 - found_at_);
   const auto stray = [&](std::size_t i) {
@@ -74,7 +74,7 @@ bool SubstepNet::covered(double to) const {
 
 void SubstepNet::search(const Substep& substep) {
   ++searches_;
-  margin_ = kMargin * gap_;
+  margin_ = kSubstepMargin * gap_;
   found_at_ = substep.from;
   found_start_ = own_.start;
   found_end_ = own_.end;
@@ -95,7 +95,7 @@ double SubstepNet::nearing(const FeaturePair& pair) const {
 }
 
 void SubstepNet::collect() {
-  const double sight = kInSight * gap_;
+  const double sight = kSubstepSight * gap_;
   near_.clear();
   for (FeaturePair& pair : pairs_) {
     const double nearing_by = nearing(pair);
@@ -146,7 +146,7 @@ void SubstepNet::apply(Particles<Real>& particles, const Substep& substep) {
     for (std::size_t i = 0; i < count; ++i) own_.velocity[i] = at<Real>(velocity, i);
     const std::vector<Vec3> end = own_.end, before = own_.velocity;
     bool met = true;
-    for (int round = 0; round < kRounds && met; ++round) {
+    for (int round = 0; round < kSubstepRounds && met; ++round) {
       met = false;
       for (const Near& near : near_) met = push_apart(near) || met;
     }
