@@ -21,14 +21,6 @@ constexpr double kRough = 0.2;
 constexpr double kRoughSpring = 8;
 /// A shorter share of a change is none.
 constexpr double kSmallestShare = 1e-4;
-/// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
-/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps free corners swinging at what puts to sleep.
-constexpr double kSlow = 5e-4;
-/// The same where rounding is what is left of such an error: where the stiffest mode's squared frequency
-/// times h^2 has no digit less than the scalar.
-constexpr double kSlowStiff = 5e-3;
-/// Sizes of the cloth a second. A slower cloth is near rest.
-constexpr double kNearRest = 5e-3;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
 
@@ -42,16 +34,6 @@ void copy(kernels::Components<const Real> from, kernels::Components<Real> to, st
 template <class Real>
 void clear(kernels::Components<Real> field, std::size_t count) {
   for (Real* component : {field.x, field.y, field.z}) std::fill_n(component, count, Real(0));
-}
-
-/// The cloth's longer side, m.
-double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
-  double longest = 0;
-  for (const SpringFamily& family : springs) {
-    if (family.rows == 0) longest = std::max(longest, family.rest_length / family.cols * (grid.cols - 1));
-    if (family.cols == 0) longest = std::max(longest, family.rest_length / family.rows * (grid.rows - 1));
-  }
-  return longest;
 }
 
 template <class Real>
@@ -92,10 +74,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
-    measure_motion(particles);
+    state_->motion.measure(particles);
     if (contact != nullptr) {
       contacts.begin(contact->expect(particles, solids, part), contact->foresee(particles, solids, part),
-                     particles, solids, part, state_->near_rest, state_->system.bodies());
+                     particles, solids, part, state_->motion.near_rest(), state_->system.bodies());
     } else {
       contacts.clear();
       state_->system.bodies().clear();
@@ -137,10 +119,7 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   if (state_->h != h || tore) {
     state_->h = h;
     state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
-    const double stiffest = forces.springs->max_squared_frequency(particles.mass) * h * h;
-    const bool rounded = stiffest * double(std::numeric_limits<Real>::epsilon()) > 1;
-    state_->size = extent(forces.springs->families(), grid);
-    state_->slow = (rounded ? kSlowStiff : kSlow) * state_->size;
+    state_->motion = MotionScale<Real>(*forces.springs, particles.mass, h);
   }
   if (state_->soft) forces.springs = &*state_->soft;
   if (forces.layers == nullptr) state_->system.couplings().clear();
@@ -148,17 +127,6 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
-}
-
-template <class Real>
-void Implicit<Real>::measure_motion(const Particles<Real>& particles) {
-  State& s = *state_;
-  s.mass = 0;
-  for (const Real node : particles.mass.values()) s.mass += static_cast<double>(node);
-  s.kinetic = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
-                                             particles.grid());
-  const double slow = kNearRest * s.size;
-  s.near_rest = s.kinetic <= s.mass * slow * slow;
 }
 
 template <class Real>
@@ -174,16 +142,7 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Layer
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
   begin_formula(h);
-  const double speed_given = standard_gravity().norm() * h;
-  s.scale = s.kinetic + s.mass * speed_given * speed_given;
-  // The error allowed is a share of the speeds that the nodes have or are given, at most by gravity: on its
-  // way to rest a cloth is solved ever more finely, as errors that stayed the same would shake it for ever.
-  const double share = parameters_.tolerance * parameters_.tolerance;
-  // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
-  // the solids: a share of that would shake a drape near rest for ever.
-  s.target.share = s.near_rest && !s.contacts.empty() ? 0 : share;
-  s.target.least = share * (s.kinetic + s.mass * s.slow * s.slow);
-  s.target.most = std::max(s.target.least, share * s.scale);
+  s.target = s.motion.target(parameters_.tolerance, !s.contacts.empty());
 }
 
 template <class Real>
@@ -298,15 +257,16 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     clear(s.change, count);
     report.linear_iterations += solved.iterations;
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
-    const bool found = changed.taken || decrease <= kMissedShare * s.scale;
+    const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
     report.found = report.found || (solved.finite && found);
     double error = changed.error, pulling = 0;
     if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
     const bool rough =
-        changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * s.scale;
-    const double allowed = left > 1 || rough ? solved.target : std::max(solved.target, kRough * s.scale);
+        changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * s.motion.energy();
+    const double allowed =
+        left > 1 || rough ? solved.target : std::max(solved.target, kRough * s.motion.energy());
     const bool done = report.brought_in <= 0 && error <= allowed;
     const bool last = left <= 1 - kSpareIterations;
     if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;

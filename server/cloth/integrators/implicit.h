@@ -3,9 +3,9 @@
 
 #include "cloth/contact/contact_constraints.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/motion_scale.h"
 #include "cloth/integrators/softened_springs.h"
 #include "cloth/kernels/implicit_kernels.h"
-#include "cloth/solver/conjugate_gradients.h"
 
 namespace weft {
 
@@ -59,18 +59,13 @@ class Implicit final : public Integrator<Real> {
     std::vector<OneSidedSpring> one_sided;  ///< those of a change
     double h = 0;                           ///< s, of the last step's substeps
     std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
-    double scale = 0;                       ///< energy that the substep's motion is of, J
-    double slow = 0;                        ///< m/s, as slow as motion need be told from rest
-    double size = 0;                        ///< m, of the cloth
-    double mass = 0, kinetic = 0;           ///< kg, and twice the energy, J, as the substep begins
-    bool near_rest = false;                 ///< the cloth will soon be at rest
+    MotionScale<Real> motion;               ///< as the substep begins
     SolveTarget target;                     ///< of the substep's solves
     bool smooth = true;                     ///< the substep was not taken back
     bool sound = true;                      ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
-  void measure_motion(const Particles<Real>& particles);
   void begin_substep(const Particles<Real>& particles, const LayerContacts<Real>* layers, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);

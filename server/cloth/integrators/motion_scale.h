@@ -1,0 +1,37 @@
+#pragma once
+#include "cloth/particles.h"
+#include "cloth/solver/conjugate_gradients.h"
+#include "cloth/springs.h"
+
+namespace weft {
+
+/// How large the motion in an implicit substep is, and by that how large an error its solves may leave: a
+/// share of the speeds that the nodes have or are given, at most by gravity. On its way to rest a cloth is so
+/// solved ever more finely: errors that stayed the same would shake it for ever.
+template <class Real>
+class MotionScale {
+ public:
+  MotionScale() = default;
+  /// Of a cloth of these springs and nodes of these masses, in substeps of h seconds.
+  MotionScale(const Springs<Real>& springs, const Field<Real>& mass, double h);
+
+  /// As a substep begins.
+  void measure(const Particles<Real>& particles);
+  /// The cloth will soon be at rest.
+  bool near_rest() const { return kinetic_ <= mass_ * near_rest_ * near_rest_; }
+  /// Twice the energy of the motion that nodes have or gravity gives them in the substep, J.
+  double energy() const;
+  /// Of solves that may be off by `tolerance` of the speed; `contact`: something touches the cloth.
+  SolveTarget target(double tolerance, bool contact) const;
+
+ private:
+  double h_ = 0;
+  double slow_ = 0;                ///< m/s, as slow as motion need be told from rest
+  double near_rest_ = 0;           ///< m/s
+  double mass_ = 0, kinetic_ = 0;  ///< kg, and twice the energy, J
+};
+
+extern template class MotionScale<float>;
+extern template class MotionScale<double>;
+
+}  // namespace weft
