@@ -21,7 +21,7 @@ using test::ground;
 using test::run;
 using test::standing;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 Solid solid_of(const Shape& shape, const Vec3& position, double mass = 1) {
   Solid solid;
@@ -57,7 +57,7 @@ TEST(Manifold, OfFacesThatCrossIsTheirCommonPart) {
 }
 
 TEST(Manifold, OfACapsuleThatLiesOnABoxIsTheEndsOfWhatIsOverIt) {
-  const Eigen::Matrix3d lying = Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d lying = Eigen::AngleAxisd(kHalfTurn / 2, Vec3::UnitZ()).toRotationMatrix();
   const PlacedShape capsule{Capsule{2, 0.1}, {0, 0.59, 0}, lying}, box{Box{{1, 0.5, 1}}};
   const Manifold manifold = manifold_of(capsule, box, {0, 1, 0}, {0, 0.5, 0}, 0.05);
   ASSERT_EQ(manifold.points.size(), 2u);
@@ -68,8 +68,8 @@ TEST(Manifold, OfACapsuleThatLiesOnABoxIsTheEndsOfWhatIsOverIt) {
 }
 
 TEST(Manifold, OfEdgesThatCrossIsThePointBetweenThem) {
-  const Eigen::Matrix3d on_edge = Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix();
-  const Eigen::Matrix3d across = Eigen::AngleAxisd(kPi / 4, Vec3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d on_edge = Eigen::AngleAxisd(kHalfTurn / 4, Vec3::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d across = Eigen::AngleAxisd(kHalfTurn / 4, Vec3::UnitZ()).toRotationMatrix();
   const double height = std::sqrt(0.02);  // of an edge over the axis
   const PlacedShape a{Box{{1, 0.1, 0.1}}, {0, 2 * height - 0.01, 0}, on_edge},
       b{Box{{0.1, 0.1, 1}}, {0, 0, 0}, across};
@@ -120,7 +120,7 @@ TEST(BodyCollision, OrdersWhatYieldsFirstAndWhatStandsLastWhateverTheTreesOrder)
 
 TEST(BodyCollision, KeepsEightPointsOfMany) {
   const TriangleMesh disc(test::revolved(2, 64, false, [](double u, double v) {
-    const double round = 2 * kPi * v;
+    const double round = 2 * kHalfTurn * v;
     if (u == 0 || u == 1) return Vec3(0, u == 0 ? 0.2 : -0.2, 0);
     return Vec3(std::cos(round), -0.2, std::sin(round));
   }));
@@ -149,7 +149,7 @@ SimulationDescription falling_scene() {
   ClothDescription cloth;
   cloth.size = {1.5, 1.5};
   cloth.position = {0, 0.002, 0};
-  cloth.orientation = Quaternion(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX()));
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-kHalfTurn / 2, Vec3::UnitX()));
   cloth.min_level = cloth.initial_level = cloth.max_level = 4;
   scene.cloths = {cloth};
   scene.effects = {GravityEffect{}, DampingEffect{}};
