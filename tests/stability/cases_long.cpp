@@ -26,17 +26,19 @@ Case weightless() {
 }
 
 Case resting_drape() {
-  constexpr double kRadius = 0.3, kSettled = 15, kSpeed = 1e-4, kCreep = 1e-3;
+  constexpr double kRadius = 0.3, kSettled = 60, kSpeed = 1e-4, kCreep = 1e-3;
   const auto scene = [](const Setup& setup) {
     SimulationDescription made = level_sheet(setup, {});
     made.cloths[0].position = {0, kRadius + 0.05, 0};
     made.balls = {ball({0, 0, 0}, kRadius)};
+    made.sleep_speed = 0;
     return made;
   };
-  Case made{"S15", "drape on a ball at rest, 10 minutes: speed under 1e-4 m/s, no creep", {{20, scene}}};
+  Case made{"S15", "drape on a ball at rest, 10 minutes: speed under 1e-4 m/s, no creep", {{70, scene}}};
   made.nightly_seconds = 600;
-  // Speeds are those at which the nodes get on from step to step: their velocities shake within the substeps
-  // by as much as single precision rounds their places, 6e-8 m in 1/2800 s and up.
+  // It is kept from sleeping: asleep nothing moves, however it would creep. Unfolding takes it half a minute
+  // at level 6. Speeds are those at which the nodes get on from step to step: their velocities shake within
+  // the substeps by as much as single precision rounds their places, 6e-8 m in 1/2800 s and up.
   made.watch = [](const Setup& setup) -> Watch {
     const auto settled = std::make_shared<std::vector<Vec3>>(), last = std::make_shared<std::vector<Vec3>>();
     return [=](const Simulation<float>& simulation, double time) -> Complaint {
@@ -54,6 +56,7 @@ Case resting_drape() {
   made.expect = [scene](const Setup& setup) {
     const SimulationDescription hung = scene(setup);
     Expectation expect;
+    expect.rests = false;
     expect.stretch = 0.05 + xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * 9.81 / 2);
     return expect;
   };

@@ -13,7 +13,7 @@ namespace {
 /// takes one, a crumpled sheet all.
 constexpr int kSpareIterations = 8, kMoreIterations = 3;
 /// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
-/// not.
+/// not. Near rest none may be off by more than a solve.
 constexpr double kRough = 0.2;
 /// Nor is one off by more than so many nodes' share of that energy in a single spring: a fold that runs
 /// through a stiff sheet would stretch the few springs in it far beyond their strain. A curtain, a flag or a
@@ -247,6 +247,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
         s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
     s.target = {.least = solved.target};
     const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
+    s.motion.found(decrease);
     const ChangeReport changed = (this->*change)(forces, decrease);
     s.system.bodies().take_changes();
     kernels::move_nodes<Real>(
@@ -265,8 +266,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     error = std::max(error, pulling);
     const bool rough =
         changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * s.motion.energy();
-    const double allowed =
-        left > 1 || rough ? solved.target : std::max(solved.target, kRough * s.motion.energy());
+    const double allowed = left > 1 || rough || s.motion.fine()
+                               ? solved.target
+                               : std::max(solved.target, kRough * s.motion.energy());
     const bool done = report.brought_in <= 0 && error <= allowed;
     const bool last = left <= 1 - kSpareIterations;
     if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;

@@ -32,15 +32,16 @@ double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
 template <class Real>
 MotionScale<Real>::MotionScale(const Springs<Real>& springs, const Field<Real>& mass, double h) : h_(h) {
   const double stiffest = springs.max_squared_frequency(mass) * h * h;
-  const bool rounded = stiffest * double(std::numeric_limits<Real>::epsilon()) > 1;
   const double size = extent(springs.families(), mass.grid());
-  slow_ = (rounded ? kSlowStiff : kSlow) * size;
+  digits_ = stiffest * double(std::numeric_limits<Real>::epsilon()) <= 1;
+  slow_ = (digits_ ? kSlow : kSlowStiff) * size;
   near_rest_ = kNearRest * size;
 }
 
 template <class Real>
 void MotionScale<Real>::measure(const Particles<Real>& particles) {
   mass_ = 0;
+  stirred_ = false;
   for (const Real node : particles.mass.values()) mass_ += static_cast<double>(node);
   kinetic_ = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
                                             particles.grid());
@@ -48,6 +49,7 @@ void MotionScale<Real>::measure(const Particles<Real>& particles) {
 
 template <class Real>
 double MotionScale<Real>::energy() const {
+  if (fine()) return kinetic_ + mass_ * slow_ * slow_;
   const double speed_given = standard_gravity().norm() * h_;
   return kinetic_ + mass_ * speed_given * speed_given;
 }
