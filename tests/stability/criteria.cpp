@@ -147,6 +147,12 @@ double root_mean_square_movement(const std::vector<Vec3>& before, const std::vec
   return std::sqrt(sum / static_cast<double>(now.size()));
 }
 
+void EnergyFall::add(double energy) {
+  if (seen_ < third_) lowest_first_ = std::min(lowest_first_, energy);
+  if (seen_ >= steps_ - third_) highest_last_ = std::max(highest_last_, energy);
+  ++seen_;
+}
+
 void Jitter::add(std::vector<Vec3> positions) {
   for (std::size_t i = 0; i < before_last_.size(); ++i) {
     largest_ = std::max(largest_, (positions[i] - 2 * last_[i] + before_last_[i]).norm());

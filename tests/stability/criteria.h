@@ -11,10 +11,13 @@
 ///  - from a stated time on no structural spring is stretched beyond a stated limit. Compression is no harm:
 ///    a spring mesh shortens where cloth has folds finer than the mesh;
 ///  - no node is inside a ball or an obstacle deeper than stated;
-///  - within half a minute after the last event it comes to rest: it falls asleep, which it does when no
-///    node has got on at more than 0.1 mm/s for 60 steps. Of one that does not the jitter is told as well,
-///    the largest change of a node's move from step to step: over 1e-5 of the size it is a complaint of its
-///    own.
+///  - after the last event it comes to rest: it falls asleep, which it does when no node has got on at more
+///    than 0.1 mm/s for 60 steps. In every half minute until then it has to lose energy (EnergyFall): a sheet
+///    that still unfolds or slides has not settled yet and may take up to five minutes, a limit cycle, whose
+///    energy does not fall, fails after half a minute. Of one that fails the jitter is told as well, the
+///    largest change of a node's move from step to step: over 1e-5 of the size it is a complaint of its own.
+#include <limits>
+
 #include "case.h"
 
 namespace weft::stability {
@@ -42,6 +45,23 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
 /// The largest distance of a node from where it was, m.
 double movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now);
 double root_mean_square_movement(const std::vector<Vec3>& before, const std::vector<Vec3>& now);  ///< m
+
+/// Whether the energy falls, read after every step of some time: in the last third of it the highest is below
+/// the lowest of the first third. Nothing that repeats itself within a third does that, however little energy
+/// it has.
+class EnergyFall {
+ public:
+  /// `steps` of the whole time, at least 3.
+  explicit EnergyFall(long steps) : third_(steps / 3), steps_(steps) {}
+  void add(double energy);  ///< J
+  /// After all steps.
+  bool falls() const { return highest_last_ < lowest_first_; }
+
+ private:
+  long third_, steps_, seen_ = 0;
+  double lowest_first_ = std::numeric_limits<double>::infinity();
+  double highest_last_ = -std::numeric_limits<double>::infinity();
+};
 
 /// How nodes shake: the largest change of a node's move from one step to the next.
 class Jitter {

@@ -15,7 +15,8 @@
 namespace weft::stability {
 namespace {
 
-constexpr double kRestWithin = 30;  ///< s after the last phase, without self-contact a crumpled sheet is slow
+constexpr double kLosingTime = 30;    ///< s, in which what is not asleep yet loses energy
+constexpr int kLosingTimes = 10;      ///< after the last phase; then it is asleep
 constexpr double kRestSeconds = 0.5;  ///< at the end, watched for jitter
 constexpr double kJitter = 1e-5;      ///< of the size
 /// Under the address sanitizer, which is there for the code and not for the figures, a run ends after so many
@@ -102,20 +103,33 @@ class Run {
   }
 
   void come_to_rest() {
-    const auto steps = std::lround(kRestWithin * setup_.hz);
+    const double start = time_;
+    for (int time = 1; time <= kLosingTimes && goes_on() && !asleep(); ++time) {
+      if (!loses_energy(start, time == kLosingTimes)) break;
+    }
+    result_.rest_seconds = time_ - start;
+  }
+  /// For kLosingTime or until it sleeps. Complains if it does neither, or is awake `at_last`.
+  bool loses_energy(double start, bool at_last) {
+    const auto steps = std::lround(kLosingTime * setup_.hz);
     const auto rest = static_cast<long>(kRestSeconds * setup_.hz);
+    EnergyFall energy(steps);
     Jitter jitter;
     for (long step = 0; step < steps && goes_on() && !asleep(); ++step) {
       make_step();
       judge(case_.phases.back().seconds, true);
+      energy.add(energy_);
       if (step >= steps - rest) jitter.add(positions(*simulation_));
     }
-    if (!goes_on() || asleep()) return;
-    complain("awake " + number(kRestWithin) + " s after", time_);
+    if (!goes_on() || asleep() || (energy.falls() && !at_last)) return true;
+    complain(
+        "awake " + number(time_ - start) + " s after" + (energy.falls() ? "" : ", its energy falls no more"),
+        time_);
     const double share = jitter.largest() / simulation_->description().cloths[0].size.maxCoeff();
     if (share > kJitter) {
       complain("jitter of " + number(share) + " of the size; at most " + number(kJitter), time_);
     }
+    return false;
   }
   bool asleep() const { return simulation_->cloths()[0].asleep(); }
 
@@ -126,6 +140,7 @@ class Run {
     at_most_substeps_ = at_most_substeps_ || simulation_->last_advance(0).substeps == kMaxSubsteps;
     if (!finite_) return complain("not finite", time_);
     const Reading now = read(*simulation_, setup_.method != Method::xpbd);
+    energy_ = now.energy;
     const double rise = now.energy - bound_.start;
     result_.energy_rise = std::max(result_.energy_rise, rise / bound_.allowed);
     if (!(rise <= bound_.allowed)) {
@@ -173,7 +188,7 @@ class Run {
   EnergyBound bound_;
   bool at_most_substeps_ = false;
   Result result_;
-  double time_ = 0, seconds_ = 0;
+  double time_ = 0, seconds_ = 0, energy_ = 0;
   long steps_ = 0, substeps_ = 0;
   bool finite_ = true;
 };

@@ -18,6 +18,7 @@ struct Result {
   double energy_rise = 0;               ///< largest energy above the start's, as a share of what is allowed
   double penetration = 0;               ///< m, deepest from the stated time on
   int guard_events = 0;                 ///< how often the step guard stepped in
+  double rest_seconds = 0;              ///< until it slept, or was given up, after its last phase
   double milliseconds = 0;              ///< a frame: processor time of this thread, mean
   bool cut_short = false;               ///< ended early, under a sanitizer: what comes later is not judged
 };

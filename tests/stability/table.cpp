@@ -13,7 +13,7 @@ namespace weft::stability {
 namespace {
 
 constexpr const char* kHeader =
-    "case,method,level,hz,verdict,stretch,energy,penetration_m,guard_events,ms_per_frame,why\n";
+    "case,method,level,hz,verdict,stretch,energy,penetration_m,guard_events,rest_s,ms_per_frame,why\n";
 
 std::string short_number(double value) {
   char text[32];
@@ -25,14 +25,14 @@ std::string line(const Row& row) {
   std::ostringstream out;
   out << row.name << ',' << row.method << ',' << row.level << ',' << row.hz << ',' << row.verdict << ','
       << row.stretch << ',' << row.energy_rise << ',' << row.penetration << ',' << row.guard_events << ','
-      << row.milliseconds << ",\"" << row.why << "\"\n";
+      << row.rest_seconds << ',' << row.milliseconds << ",\"" << row.why << "\"\n";
   return out.str();
 }
 
 /// The row that line() wrote.
 Row read_line(const std::string& text) {
   std::istringstream in(text);
-  std::array<std::string, 10> fields;
+  std::array<std::string, 11> fields;
   for (std::string& field : fields) std::getline(in, field, ',');
   std::string why;
   std::getline(in, why);
@@ -44,7 +44,8 @@ Row read_line(const std::string& text) {
   row.energy_rise = number(6);
   row.penetration = number(7);
   row.guard_events = static_cast<int>(number(8));
-  row.milliseconds = number(9);
+  row.rest_seconds = number(9);
+  row.milliseconds = number(10);
   return row;
 }
 
@@ -62,6 +63,7 @@ Row row_of(const Case& hard_case, const Setup& setup, const Result& result) {
   row.energy_rise = result.energy_rise;
   row.penetration = result.penetration;
   row.guard_events = result.guard_events;
+  row.rest_seconds = result.rest_seconds;
   row.milliseconds = result.milliseconds;
   return row;
 }
@@ -95,16 +97,19 @@ std::string markdown(const std::vector<Row>& rows) {
   std::ostringstream out;
   out << "Stretch: largest of a structural spring, from the time on that the case states. Energy: largest "
          "rise above "
-         "the start's, as a share of what the case allows. Guard: how often the step guard stepped in.\n\n"
-         "| case | method | level | Hz | verdict | stretch | energy | penetration, m | guard | ms a frame | "
+         "the start's, as a share of what the case allows. Guard: how often the step guard stepped in. "
+         "Rest: s from the last event on until it slept.\n\n"
+         "| case | method | level | Hz | verdict | stretch | energy | penetration, m | guard | rest, s | ms "
+         "a frame | "
          "why |\n"
-         "|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Row& row : rows) {
     out << "| " << row.name << " | " << row.method << " | " << row.level << " | " << row.hz << " | "
         << row.verdict << " | " << short_number(row.stretch) << " | " << short_number(row.energy_rise)
         << " | " << short_number(row.penetration) << " | " << row.guard_events << " | "
-        << short_number(row.milliseconds) << " | " << row.why << " |\n";
+        << short_number(row.rest_seconds) << " | " << short_number(row.milliseconds) << " | " << row.why
+        << " |\n";
     ++counts[row.method][row.verdict];
   }
   out << "\n| method | pass | fail | limit |\n|---|---|---|---|\n";
