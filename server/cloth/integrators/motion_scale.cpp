@@ -16,6 +16,9 @@ constexpr double kSlow = 5e-4;
 constexpr double kSlowStiff = 5e-3;
 /// Sizes of the cloth a second. A slower cloth is near rest.
 constexpr double kNearRest = 5e-3;
+/// Share of what gravity gives: free fall finds half of that, springs and solids that hold a sheet at rest a
+/// thousandth.
+constexpr double kFalls = 0.1;
 
 /// The cloth's longer side, m.
 double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
@@ -41,17 +44,26 @@ MotionScale<Real>::MotionScale(const Springs<Real>& springs, const Field<Real>& 
 template <class Real>
 void MotionScale<Real>::measure(const Particles<Real>& particles) {
   mass_ = 0;
-  stirred_ = false;
+  falls_ = false;
   for (const Real node : particles.mass.values()) mass_ += static_cast<double>(node);
   kinetic_ = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
                                             particles.grid());
 }
 
 template <class Real>
+double MotionScale<Real>::given() const {
+  const double speed = standard_gravity().norm() * h_;
+  return mass_ * speed * speed;
+}
+
+template <class Real>
+void MotionScale<Real>::found(double decrease) {
+  falls_ = falls_ || decrease > kFalls * given();
+}
+
+template <class Real>
 double MotionScale<Real>::energy() const {
-  if (fine()) return kinetic_ + mass_ * slow_ * slow_;
-  const double speed_given = standard_gravity().norm() * h_;
-  return kinetic_ + mass_ * speed_given * speed_given;
+  return kinetic_ + (fine() ? mass_ * slow_ * slow_ : given());
 }
 
 template <class Real>

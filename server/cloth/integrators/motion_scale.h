@@ -17,15 +17,15 @@ class MotionScale {
 
   /// As a substep begins.
   void measure(const Particles<Real>& particles);
-  /// A solve of the substep lowers the energy by `decrease`, J: more than a cloth near rest has to lose sets
-  /// it in motion, whatever it did before.
-  void found(double decrease) { stirred_ = stirred_ || decrease > mass_ * near_rest_ * near_rest_; }
+  /// A solve of the substep lowers the energy by `decrease`, J. What is held up loses far less than what
+  /// falls.
+  void found(double decrease);
   /// The cloth will soon be at rest.
   bool near_rest() const { return kinetic_ <= mass_ * near_rest_ * near_rest_; }
-  /// Near rest and left there, and the scalar has the digits to tell how near. What gravity gives the nodes
+  /// Near rest and held there, and the scalar has the digits to tell how near. What gravity gives the nodes
   /// the springs then take away again: no measure of an error. Held to it, errors as large as the motion
   /// brake it: at 15 Hz a crumpled sheet took 62 s to come to rest that takes 11.
-  bool fine() const { return digits_ && near_rest() && !stirred_; }
+  bool fine() const { return digits_ && near_rest() && !falls_; }
   /// Twice the energy of the motion that nodes have or, unless it is fine, gravity gives them in the substep,
   /// J.
   double energy() const;
@@ -33,12 +33,15 @@ class MotionScale {
   SolveTarget target(double tolerance, bool contact) const;
 
  private:
+  /// Twice the energy of the speed that gravity gives in the substep, J.
+  double given() const;
+
   double h_ = 0;
   double slow_ = 0;                ///< m/s, as slow as motion need be told from rest
   double near_rest_ = 0;           ///< m/s
   double mass_ = 0, kinetic_ = 0;  ///< kg, and twice the energy, J
   bool digits_ = true;             ///< of the scalar, enough for errors of slow_
-  bool stirred_ = false;           ///< in this substep
+  bool falls_ = false;             ///< in this substep
 };
 
 extern template class MotionScale<float>;
