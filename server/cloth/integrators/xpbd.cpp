@@ -50,13 +50,20 @@ int refinement(const Particles<Real>& particles, const Springs<Real>& springs, d
 
 }  // namespace
 
+int substeps(const XpbdDescription& description, double dt) {
+  if (description.substeps > 0) return description.substeps;
+  constexpr double kSpread = 0.1;  // of a substep, over the others
+  return std::max(1, static_cast<int>(std::ceil(dt / description.longest_substep - kSpread)));
+}
+
 template <class Real>
 AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                                   std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   const int before = refinement_;
-  refine(refinement(particles, *forces.springs, dt / description_.substeps));
-  report.substeps = description_.substeps * refinement_;
+  const int described = substeps(description_, dt);
+  refine(refinement(particles, *forces.springs, dt / described));
+  report.substeps = described * refinement_;
   const double h = dt / report.substeps;
   prepare(particles, forces, h);
   if (before != refinement_) {

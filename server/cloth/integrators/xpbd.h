@@ -4,6 +4,10 @@
 
 namespace weft {
 
+/// Substeps of a step of `dt` seconds in motion that is not violent. Where they are chosen by their length a
+/// tenth of one is spread over the others: time steps are given rounded, and 0.0167 s is meant as 1/60 s.
+int substeps(const XpbdDescription& description, double dt);
+
 /// Extended position-based dynamics with small steps (Macklin, Mueller, Chentanez 2016, "XPBD"; Macklin et
 /// al. 2019, "Small steps in physics simulation"). Each substep moves the nodes by Eq. 6 under the effects
 /// alone, then projects every spring once as a distance constraint of compliance 1/k, then takes the

@@ -172,6 +172,21 @@ TEST(XpbdDamping, DragFasterThanTheSubstepStopsAtTheTerminalVelocity) {
   }
 }
 
+// --- How many substeps ---
+
+TEST(XpbdSubsteps, AreAsShortInStepsOfAnyLength) {
+  // 1/2400 s by default; 0.0167 s is meant as 1/60 s.
+  for (const auto& [dt, expected] : std::vector<std::pair<double, int>>{
+           {1.0 / 60, 40}, {0.0167, 40}, {1.0 / 30, 80}, {1.0 / 15, 160}, {1.0 / 120, 20}, {1e-5, 1}}) {
+    EXPECT_EQ(substeps(XpbdDescription{}, dt), expected) << dt;
+    EXPECT_EQ(sheet_rig<double>(3, 3, XpbdDescription{}).advance(0, dt).substeps, expected) << dt;
+  }
+  EXPECT_EQ(substeps({0, 0.01}, 0.1), 10);
+  EXPECT_EQ(substeps({0, 0.01}, 0.1009), 10);
+  EXPECT_EQ(substeps({0, 0.01}, 0.1011), 11);
+  EXPECT_EQ(substeps({7, 0.01}, 0.1), 7);
+}
+
 // --- Substeps of a violent step ---
 
 /// Substeps of the next step of a sheet of 2 m and 8 x 8 cells whose columns are stretched by so much, and of
