@@ -250,9 +250,10 @@ struct Bdf2Description : ImplicitParameters {
 /// Every spring a constraint, projected once a substep: bounded whatever the stiffness, softer than asked for
 /// until the substeps are many (xpbd.h says by how much).
 struct XpbdDescription {
-  /// Per step; >= 1. Twice as many leave a quarter of the excess stretch. In violent motion up to 4 times
-  /// that.
-  int substeps = 40;
+  /// Per step. Twice as many leave a quarter of the excess stretch. In violent motion up to 4 times that. 0:
+  /// the fewest that are as short as stated.
+  int substeps = 0;
+  double longest_substep = 1.0 / 2400;  ///< s, with substeps = 0: 40 a step of 1/60 s
   static constexpr const char* kName = "xpbd";
 };
 using IntegratorDescription =

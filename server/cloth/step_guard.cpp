@@ -14,6 +14,10 @@ IntegratorDescription with_more_substeps(const IntegratorDescription& descriptio
     euler->safety /= factor;  // it chooses its substeps itself
     return more;
   }
+  if (auto* xpbd = std::get_if<XpbdDescription>(&more); xpbd && xpbd->substeps == 0) {
+    xpbd->longest_substep /= factor;
+    return more;
+  }
   std::visit([factor](auto& each) { each.substeps *= factor; }, more);
   return more;
 }

@@ -7,20 +7,31 @@ using nlohmann::json;
 
 constexpr Range kSubsteps{1, 10000};
 
+/// "substeps": a number, or "auto", which leaves them as they are.
+void read_chosen_substeps(Object& object, int& number) {
+  const json* substeps = object.find("substeps");
+  if (!substeps || *substeps == "auto") return;
+  if (substeps->is_string()) {
+    object.report().refuse(*substeps, object.path("substeps"), "\"auto\" or an integer " + kSubsteps.text());
+  } else {
+    object.integer("substeps", number, kSubsteps);
+  }
+}
+
 SymplecticEulerDescription read_symplectic_euler(Object& object) {
   constexpr Range kSafety{0.01, 1};
   SymplecticEulerDescription euler;
-  const json* substeps = object.find("substeps");
-  if (substeps && *substeps != "auto") {
-    if (substeps->is_string()) {
-      object.report().refuse(*substeps, object.path("substeps"),
-                             "\"auto\" or an integer " + kSubsteps.text());
-    } else {
-      object.integer("substeps", euler.substeps, kSubsteps);
-    }
-  }
+  read_chosen_substeps(object, euler.substeps);
   object.number("safety", euler.safety, kSafety);
   return euler;
+}
+
+XpbdDescription read_xpbd(Object& object) {
+  constexpr Range kLongestSubstep{1e-5, 0.1, "s"};
+  XpbdDescription xpbd;
+  read_chosen_substeps(object, xpbd.substeps);
+  object.number("longest_substep", xpbd.longest_substep, kLongestSubstep);
+  return xpbd;
 }
 
 template <class Description>
@@ -135,11 +146,8 @@ IntegratorDescription read_integrator(const json& value, const std::string& path
       return read_implicit<BackwardEulerDescription>(object);
     case 2:
       return read_implicit<Bdf2Description>(object);
-    case 3: {
-      XpbdDescription xpbd;
-      object.integer("substeps", xpbd.substeps, kSubsteps);
-      return xpbd;
-    }
+    case 3:
+      return read_xpbd(object);
     default:
       object.ignore_rest();
       return {};

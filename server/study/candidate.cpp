@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace weft::study {
 namespace {
@@ -28,7 +29,10 @@ struct SettingText {
     if (implicit.newton_iterations > 1) text += ", " + std::to_string(implicit.newton_iterations) + " Newton";
     return text;
   }
-  std::string operator()(const XpbdDescription& xpbd) const { return substeps_text(xpbd.substeps); }
+  std::string operator()(const XpbdDescription& xpbd) const {
+    if (xpbd.substeps > 0) return substeps_text(xpbd.substeps);
+    return "substeps of " + text_of(std::round(1e6 * xpbd.longest_substep)) + " us";
+  }
 };
 
 Settings symplectic_euler_settings() {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/integrators/xpbd.h"
 #include "cloth/refine.h"
 
 namespace weft::stability {
@@ -78,7 +79,7 @@ double xpbd_excess(const SimulationDescription& scene, const Setup& setup, doubl
   if (setup.method != Method::xpbd) return 0;
   const ClothDescription& cloth = scene.cloths[0];
   const Grid grid = cloth.base_cells.at(cloth.initial_level);
-  const double h = scene.time_step / std::get<XpbdDescription>(scene.integrator).substeps;
+  const double h = scene.time_step / substeps(std::get<XpbdDescription>(scene.integrator), scene.time_step);
   const double border_mass = mass_of(cloth) / grid.cells() / 2;
   const double spacing = std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1));
   return load * h * h * 2 / border_mass / spacing;

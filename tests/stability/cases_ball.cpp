@@ -247,11 +247,17 @@ Case resting_on() {
     expect.rests = false;  // the ball itself is not damped
     return expect;
   };
-  made.ending = [](const Simulation<float>& simulation, const Setup&) -> Complaint {
+  made.ending = [](const Simulation<float>& simulation, const Setup& setup) -> Complaint {
     const Ball& dropped = simulation.colliders().balls()[0];
-    if (dropped.position.y() > -kSize / 2 && dropped.velocity.norm() < 0.5) return {};
-    return "ball is at " + std::to_string(dropped.position.y()) + " m with " +
-           std::to_string(dropped.velocity.norm()) + " m/s; should rest on the sheet";
+    // A ball's velocity is that at a step's end, and gravity bears on it when the next one begins. Methods
+    // that have the sheet bear on it all through the step leave it g dt / 2 upwards when it is at rest, its
+    // mean over the step being 0.
+    const bool all_through = setup.method != Method::backward_euler && setup.method != Method::bdf2;
+    const Vec3 kick = simulation.gravity() * setup.time_step();
+    const double speed = (all_through ? Vec3(dropped.velocity + kick / 2) : dropped.velocity).norm();
+    if (dropped.position.y() > -kSize / 2 && speed < 0.5) return {};
+    return "ball is at " + std::to_string(dropped.position.y()) + " m with " + std::to_string(speed) +
+           " m/s; should rest on the sheet";
   };
   return made;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cloth/integrators/xpbd.h"
+
 namespace weft::stability {
 namespace {
 
@@ -16,7 +18,7 @@ std::string sentence(const char* what, double value, double most) {
 double xpbd_stretch(const Simulation<float>& simulation, int cells) {
   const auto* xpbd = std::get_if<XpbdDescription>(&simulation.description().integrator);
   if (xpbd == nullptr) return 0;
-  const double h = simulation.description().time_step / xpbd->substeps;
+  const double dt = simulation.description().time_step, h = dt / substeps(*xpbd, dt);
   return simulation.gravity().norm() * h * h * (cells * cells - cells - 1) / 2;
 }
 

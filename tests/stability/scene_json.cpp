@@ -120,7 +120,10 @@ struct IntegratorWriter {
             {"newton_iterations", i.newton_iterations},
             {"linear_iterations", i.linear_iterations}};
   }
-  json operator()(const XpbdDescription& i) const { return {{"substeps", i.substeps}}; }
+  json operator()(const XpbdDescription& i) const {
+    if (i.substeps > 0) return {{"substeps", i.substeps}};
+    return {{"longest_substep", i.longest_substep}};
+  }
 };
 
 /// A variant's value with its name as "type".

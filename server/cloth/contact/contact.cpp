@@ -257,8 +257,11 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
           const PlacedShape shape = solids[i].placed(substep.to);
           const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
           if (!hit) continue;
-          const double height = (1 - hit->fraction) * (end - begin).dot(hit->normal);
-          arrivals_.push_back({{particles.grid().index(row, col), solids[i].id}, i, {height, hit->normal}});
+          const double way = (end - begin).dot(hit->normal);
+          arrivals_.push_back({{particles.grid().index(row, col), solids[i].id},
+                               i,
+                               {(1 - hit->fraction) * way, hit->normal},
+                               -way / h});
         }
       });
   return arrivals_;

@@ -46,6 +46,7 @@ struct Arrival {
   Touch touch;
   std::size_t solid = 0;  ///< index
   Surface surface;        ///< the tangent plane where they meet, as it will be beside it if both go on
+  double approach = 0;    ///< of one to the other, along the normal, m/s
 };
 
 /// The paper's section 2.4, second half: in the struck tiles a particle inside a ball, or another solid, is

@@ -6,7 +6,6 @@
 
 #include "cloth/clock.h"
 #include "cloth/kernels/limited_kernels.h"
-#include "cloth/kernels/state_kernels.h"
 #include "cloth/kernels/torn_kernels.h"
 
 namespace weft {
@@ -26,41 +25,25 @@ void make_acceleration(Particles<Real>& particles, double h) {
   make(particles.velocity.z, particles.acceleration.z);
 }
 
-/// Steps until fewer substeps follow more: a second at 60 Hz.
-constexpr int kHold = 60;
-
-/// How many times the substeps of h seconds this step asks for (xpbd.h).
-template <class Real>
-int refinement(const Particles<Real>& particles, const Springs<Real>& springs, double h) {
-  constexpr double kStretch = 0.05, kTooLate = 0.5, kWay = 0.5, kMost = 4;
-  if (springs.torn()) return 1;  // what is cut is no stretch
-  const kernels::StateExtremes<Real> most = kernels::state_extremes(
-      particles.grid(), kernels::components(particles.position), kernels::components(particles.velocity));
-  const double way = h * std::sqrt(double(most.speed));
-  double needed = 1;
-  for (const SpringFamily& family : springs.families()) {
-    if (family.rows + std::abs(family.cols) != 1) continue;  // structural ones join neighbours
-    const double length = std::sqrt(double(family.rows == 0 ? most.along_u : most.along_v));
-    if (!(length > (1 + kStretch) * family.rest_length)) continue;
-    if (length > (1 + kTooLate) * family.rest_length) return 1;
-    needed = std::max(needed, way / (kWay * family.rest_length));
-  }
-  return static_cast<int>(std::ceil(std::min(needed, kMost)));
-}
-
 }  // namespace
+
+int substeps(const XpbdDescription& description, double dt) {
+  if (description.substeps > 0) return description.substeps;
+  constexpr double kSpread = 0.1;  // of a substep, over the others
+  return std::max(1, static_cast<int>(std::ceil(dt / description.longest_substep - kSpread)));
+}
 
 template <class Real>
 AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                                   std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
-  const int before = refinement_;
-  refine(refinement(particles, *forces.springs, dt / description_.substeps));
-  report.substeps = description_.substeps * refinement_;
+  const int described = substeps(description_, dt), before = times_;
+  times_ = refinement_.begin_step(particles, *forces.springs, contact, solids, dt / described, dt);
+  report.substeps = described * times_;
   const double h = dt / report.substeps;
   prepare(particles, forces, h);
-  if (before != refinement_) {
-    const Real share = static_cast<Real>(before) / static_cast<Real>(refinement_);
+  if (before != times_) {
+    const Real share = static_cast<Real>(before) / static_cast<Real>(times_);
     for (Real& each : multiplier_) each *= share * share;  // forces times h^2
   }
   // Explicit drag reverses velocities where its rate exceeds 1/h: forces are then scaled so that it stops
@@ -87,17 +70,6 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   return report;
-}
-
-template <class Real>
-void Xpbd<Real>::refine(int asked) {
-  if (asked >= refinement_) {
-    refinement_ = asked;
-    held_ = kHold;
-  } else if (held_-- == 0) {
-    --refinement_;
-    held_ = kHold;
-  }
 }
 
 template <class Real>

@@ -1,8 +1,13 @@
 #pragma once
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/substep_refinement.h"
 #include "cloth/kernels/plate_projection_kernels.h"
 
 namespace weft {
+
+/// Substeps of a step of `dt` seconds in motion that is not violent. Where they are chosen by their length a
+/// tenth of one is spread over the others: time steps are given rounded, and 0.0167 s is meant as 1/60 s.
+int substeps(const XpbdDescription& description, double dt);
 
 /// Extended position-based dynamics with small steps (Macklin, Mueller, Chentanez 2016, "XPBD"; Macklin et
 /// al. 2019, "Small steps in physics simulation"). Each substep moves the nodes by Eq. 6 under the effects
@@ -18,13 +23,7 @@ namespace weft {
 /// spring's length within a substep can bring in energy there: measured at level 6 with steps of 0.2 s, not
 /// with 1/15 s.
 ///
-/// A sheet in violent motion, as in a gale, is overstretched by that, and folds over itself where its nodes
-/// pass their neighbours within a substep: in the calm it then hangs tangled, by a few of its springs. A step
-/// that begins with structural springs stretched by more than 5 % is therefore made with as many times the
-/// substeps, 4 at most, as it takes for no node to go farther than half their length in one, and so are the
-/// 60 steps after it. Shorter substeps stiffen the stretched springs, C^2 / (2 h^2 (w_i + w_j)), which brings
-/// energy in: not asked for, therefore, where springs are half as long again already, and held so long.
-/// Without these two a sheet of 1 mm, which its weight overstretches, swings for ever (measured).
+/// A sheet in violent motion has up to 4 times the substeps (substep_refinement.h).
 ///
 /// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
 /// plate's stiffest modes are much faster than the substeps.
@@ -41,12 +40,11 @@ class Xpbd final : public Integrator<Real> {
                         std::vector<Solid>& solids, double time, double dt) override;
   void restart() override {
     force_ = {};
-    refinement_ = 1;
+    refinement_.restart();
+    times_ = 1;
   }
 
  private:
-  /// Takes up how many times the substeps a step asks for: more at once, fewer later.
-  void refine(int asked);
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   void prepare_springs(const Springs<Real>& springs, const Grid& grid, double h);
@@ -56,8 +54,8 @@ class Xpbd final : public Integrator<Real> {
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
 
   XpbdDescription description_;
-  int refinement_ = 1;  ///< times the described substeps
-  int held_ = 0;        ///< steps that are left until that falls
+  SubstepRefinement<Real> refinement_;
+  int times_ = 1;  ///< so many times the described substeps had the last step
   VectorField<Real> force_, rounded_off_;
   kernels::QuarterRows layout_;
   std::vector<Real, AlignedAllocator<Real>> sheet_;       ///< the nodes in that layout

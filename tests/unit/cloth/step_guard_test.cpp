@@ -24,6 +24,8 @@ TYPED_TEST_SUITE(StepGuardOf, Reals);
 IntegratorDescription four_times(IntegratorDescription integrator) {
   if (auto* euler = std::get_if<SymplecticEulerDescription>(&integrator)) {
     euler->safety /= 4;  // it chooses its substeps itself
+  } else if (auto* xpbd = std::get_if<XpbdDescription>(&integrator); xpbd && xpbd->substeps == 0) {
+    xpbd->longest_substep /= 4;  // so does it
   } else {
     std::visit([](auto& each) { each.substeps *= 4; }, integrator);
   }

@@ -257,8 +257,12 @@ TEST(Reader, EffectsWindAndStepping) {
 }
 
 TEST(Reader, XpbdFields) {
-  const Scene scene = read_good("xpbd");
-  EXPECT_EQ(std::get<XpbdDescription>(scene.simulation.integrator).substeps, 10000);
+  const auto integrator = [](const char* scene) {
+    return std::get<XpbdDescription>(read_good(scene).simulation.integrator);
+  };
+  EXPECT_EQ(integrator("xpbd").substeps, 10000);
+  EXPECT_EQ(integrator("xpbd_auto").substeps, 0);
+  EXPECT_EQ(integrator("xpbd_auto").longest_substep, 0.001);
 }
 
 TEST(Reader, ImplicitFields) {

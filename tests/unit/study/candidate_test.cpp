@@ -38,6 +38,10 @@ TEST(Candidates, SymplecticEulerGoesBelowTheStabilityLimit) {
                                       "0.225 of the stability limit"}));
 }
 
+TEST(Candidates, SubstepsChosenByTheirLengthAreTold) {
+  EXPECT_EQ(setting_of(XpbdDescription{}), "substeps of 417 us");
+}
+
 TEST(Candidates, TheScenesOwnComesFirstAndOnce) {
   const auto all = candidates(integrator_names(), XpbdDescription{40});
   EXPECT_EQ(all.size(), 11u + 11 + 6 + 3);

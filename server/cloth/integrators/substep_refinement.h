@@ -1,0 +1,42 @@
+#pragma once
+#include "cloth/contact/contact.h"
+#include "cloth/springs.h"
+
+namespace weft {
+
+/// How many times as many substeps as usual an XPBD step is made with: more at once where more are needed,
+/// and one time fewer after every 60 steps in which fewer would do; at most 4 times.
+///
+/// XPBD passes a load on by a spring or two in a substep (xpbd.h). A sheet in violent motion, as in a gale,
+/// is overstretched by that, and folds over itself where its nodes pass their neighbours within a substep: in
+/// the calm it then hangs tangled, by a few of its springs. Therefore a step has as many substeps as it takes
+///  - where structural springs are stretched by more than 5 %, for no node to go farther than half their
+///    length in one;
+///  - where a body strikes that yields to the cloth, for it to strike no deeper than a tenth of their length
+///    in one. A thread of wave speed c struck across at v is stretched by e, v = c sqrt(2) e^(3/4) (Smith,
+///    McCrackin, Schiefer 1958, "Stress-strain relationships in yarns subjected to rapid impact loading"),
+///    and substeps of h let no wave be faster than l / (h sqrt(2)): of springs of length l they stretch 5 %.
+///
+/// So many substeps are kept while fewer would leave springs stretched by more than 5 % that by their own
+/// stiffness are stretched by less: a tangled sheet's, which bear a good part of its weight each.
+///
+/// Shorter substeps stiffen the stretched springs, C^2 / (2 h^2 (w_i + w_j)), which brings energy in: not
+/// asked for, therefore, where springs are half as long again already, and held so long. Without these two a
+/// sheet of 1 mm, which its weight overstretches, swings for ever (measured).
+template <class Real>
+class SubstepRefinement {
+ public:
+  /// For a step of `dt` seconds that would have substeps of h seconds. `contact` is nullptr without solids.
+  int begin_step(const Particles<Real>& particles, const Springs<Real>& springs, Contact<Real>* contact,
+                 const std::vector<Solid>& solids, double h, double dt);
+  void restart() { *this = {}; }
+
+ private:
+  int times_ = 1;
+  int held_ = 0;  ///< steps that are left until that falls
+};
+
+extern template class SubstepRefinement<float>;
+extern template class SubstepRefinement<double>;
+
+}  // namespace weft
