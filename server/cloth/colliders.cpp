@@ -114,6 +114,7 @@ Solid Ball::solid() const {
           .friction = friction,
           .inverse_mass = awake() ? 1 / mass : 0,
           .just_put = just_put,
+          .mobile = true,
           .start = start,
           .position = position,
           .velocity = velocity};
@@ -376,13 +377,24 @@ bool Colliders::may_meet() const {
 void Colliders::gather_solids() {
   solids_.clear();
   for (const Ball& ball : balls_) solids_.push_back(ball.solid());
-  for (const Obstacle& obstacle : obstacles_) solids_.push_back(obstacle.solid);
+  for (const Obstacle& obstacle : obstacles_) {
+    solids_.push_back(obstacle.solid);
+    solids_.back().mobile = obstacle.mobile;
+  }
 }
 
 void Colliders::meet(BodyCollision& collision, double dt) {
+  constexpr int kMostRounds = 4;
+  constexpr double kStray = 1e-4;  // m
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!(bend_ways(collision, dt) > kStray)) return;
+  }
+}
+
+double Colliders::bend_ways(BodyCollision& collision, double dt) {
   gather_solids();
   const std::vector<BodyContact>& contacts = collision.find(solids_, dt);
-  if (contacts.empty()) return;
+  if (contacts.empty()) return 0;
   std::vector<MovingBody> bodies;
   for (const Solid& solid : solids_) {
     bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});
@@ -402,13 +414,19 @@ void Colliders::meet(BodyCollision& collision, double dt) {
     ball.spin = bodies[i].spin;
   }
   stop_bad_balls();
+  double stray = 0;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     Obstacle& obstacle = obstacles_[i];
     if (!obstacle.awake()) continue;
-    obstacle.body->go_on(bodies[balls_.size() + i], obstacle.pose, obstacle.solid, dt);
+    const MovingBody& with = bodies[balls_.size() + i];
+    const Vec3& spin = obstacle.solid.spin;
+    const double turn = dt * (with.spin - spin).norm();
+    stray = std::max(stray, turn * (turn + dt * spin.norm()) / 2 * outer_radius(obstacle.solid.shape));
+    obstacle.body->go_on(with, obstacle.pose, obstacle.solid, dt);
     stop_bad_body(obstacle);
   }
   gather_solids();
+  return stray;
 }
 
 void Colliders::stop_bad_body(Obstacle& obstacle) {
