@@ -74,6 +74,8 @@ class Cloth {
   /// (sleep.h).
   bool asleep() const { return sleep_.asleep(); }
   void wake() { sleep_.wake(); }
+  /// It, for islands of what sleeps together.
+  Sleeper sleeper() const { return sleep_.sleeper(particles_); }
   /// While it rests its steps are left out, too, whatever its motion and the wind; not those in which
   /// something moves it: its pins, a hand, a solid or another cloth near it. It goes on from where it was.
   void set_resting(bool resting) { sleep_.set_resting(resting); }

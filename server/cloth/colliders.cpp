@@ -56,6 +56,12 @@ void stop(Solid& solid) {
   solid.velocity = solid.turn = solid.spin = Vec3::Zero();
 }
 
+/// No force moves it.
+void fix(Solid& solid) {
+  solid.inverse_mass = 0;
+  solid.inverse_inertia.setZero();
+}
+
 /// It goes from pose to pose in a step of dt, s.
 void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
   Solid& solid = obstacle.solid;
@@ -73,8 +79,7 @@ void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
 
 /// Along its path or to its target, in a step from `time` on.
 void advance(Obstacle& obstacle, double time, double dt) {
-  obstacle.solid.inverse_mass = 0;
-  obstacle.solid.inverse_inertia.setZero();
+  fix(obstacle.solid);
   if (obstacle.target) {
     go(obstacle, obstacle.pose, *obstacle.target, dt);
     obstacle.target.reset();
@@ -84,6 +89,14 @@ void advance(Obstacle& obstacle, double time, double dt) {
   } else {
     stop(obstacle.solid);
   }
+}
+
+/// Around its way in the step, which it may leave by `more`, m.
+Eigen::AlignedBox3d box_of(const Solid& solid, double more) {
+  Eigen::AlignedBox3d box = solid.placed(1).bounds();
+  const double margin = kRestMargin * box.sizes().maxCoeff() + more;
+  box.extend(solid.placed(0).bounds());
+  return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
 }
 
 bool flies(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
@@ -99,15 +112,17 @@ Solid Ball::solid() const {
   return {.id = id,
           .shape = Sphere{radius},
           .friction = friction,
-          .inverse_mass = motion == BallDescription::Motion::dynamic ? 1 / mass : 0,
+          .inverse_mass = awake() ? 1 / mass : 0,
           .just_put = just_put,
+          .mobile = true,
           .start = start,
           .position = position,
           .velocity = velocity};
 }
 
 Colliders::Colliders(const std::vector<BallDescription>& balls,
-                     const std::vector<ObstacleDescription>& obstacles) {
+                     const std::vector<ObstacleDescription>& obstacles, double sleep_speed)
+    : sleep_speed_(sleep_speed) {
   for (const BallDescription& ball : balls) add(ball);
   for (const ObstacleDescription& obstacle : obstacles)
     obstacles_.push_back(made_of(obstacle, obstacles_.size()));
@@ -138,6 +153,7 @@ bool Colliders::move(BallId id, const Vec3& target) {
   const auto ball = find_ball(balls_, id);
   if (ball == balls_.end()) return false;
   ball->motion = BallDescription::Motion::kinematic;
+  ball->rest.wake();
   ball->spin.setZero();
   ball->path.clear();
   forget_target(id);
@@ -149,6 +165,7 @@ bool Colliders::throw_ball(BallId id, const Vec3& velocity) {
   const auto ball = find_ball(balls_, id);
   if (ball == balls_.end()) return false;
   ball->motion = BallDescription::Motion::dynamic;
+  ball->rest.wake();
   ball->path.clear();
   ball->velocity = velocity;
   forget_target(id);
@@ -158,6 +175,7 @@ bool Colliders::throw_ball(BallId id, const Vec3& velocity) {
 bool Colliders::remove(BallId id) {
   const auto ball = find_ball(balls_, id);
   if (ball == balls_.end()) return false;
+  wake_near(ball->solid());
   balls_.erase(ball);
   forget_target(id);
   return true;
@@ -169,6 +187,7 @@ bool Colliders::move_obstacle(std::size_t index, const Pose& target) {
   obstacle.mobile = true;
   obstacle.path.clear();
   obstacle.target = {target.position, target.orientation.normalized()};
+  obstacle.rest.wake();
   if (obstacle.body) obstacle.body->hold();
   return true;
 }
@@ -179,6 +198,7 @@ bool Colliders::throw_obstacle(std::size_t index, const Vec3& velocity, const Ve
   obstacle.mobile = true;
   obstacle.path.clear();
   obstacle.target.reset();
+  obstacle.rest.wake();
   obstacle.body->fling(velocity, spin, obstacle.pose.orientation);
   return true;
 }
@@ -187,7 +207,7 @@ void Colliders::forget_target(BallId id) {
   std::erase_if(targets_, [&](const Target& target) { return target.ball == id; });
 }
 
-void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
+void Colliders::begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths) {
   for (Ball& ball : balls_) {
     ball.start = ball.position;
     ball.sharing = 1;
@@ -197,7 +217,7 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
       ball.velocity = (ball.position - ball.start) / dt;
       continue;
     }
-    if (flies(ball)) ball.velocity += gravity * dt;
+    if (flies(ball)) continue;
     const auto target =
         std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.ball == ball.id; });
     if (target == targets_.end()) {
@@ -211,16 +231,98 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity) {
       target->reached = true;
     }
   }
+  for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.mobile && !obstacle.flies()) advance(obstacle, time, dt);
+  }
+  if (may_rest()) let_sleep(dt, gravity, cloths);
+  for (Ball& ball : balls_) {
+    if (!ball.awake() || !ball.path.empty()) continue;
+    ball.velocity += gravity * dt;
+    ball.position += ball.velocity * dt;
+  }
   stop_bad_balls();
   for (Obstacle& obstacle : obstacles_) {
-    if (obstacle.flies()) {
-      obstacle.body->fly(obstacle.pose, obstacle.solid, gravity, dt);
-      stop_bad_body(obstacle);
-    } else if (obstacle.mobile) {
-      advance(obstacle, time, dt);
-    }
+    if (!obstacle.awake()) continue;
+    obstacle.body->fly(obstacle.pose, obstacle.solid, gravity, dt);
+    stop_bad_body(obstacle);
   }
   gather_solids();
+}
+
+bool Colliders::may_rest() const {
+  const auto quiet = [](const auto& body) { return body.rest.quiet(); };
+  return std::any_of(balls_.begin(), balls_.end(), quiet) ||
+         std::any_of(obstacles_.begin(), obstacles_.end(), quiet);
+}
+
+void Colliders::let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths) {
+  std::vector<Sleeper> sleepers;
+  std::vector<BodyRest*> rests;  // nullptr: no force moves it
+  bool all_sleep =
+      std::all_of(cloths.begin(), cloths.end(), [](const Sleeper& cloth) { return cloth.quiet; });
+  const auto add = [&](const Solid& solid, const Vec3& velocity, BodyRest* rest) {
+    const bool quiet = rest != nullptr && rest->quiet();
+    all_sleep = all_sleep && quiet && rest->asleep();
+    sleepers.push_back({box_of(solid, quiet ? 0 : dt * (velocity.norm() + dt * gravity.norm())), quiet});
+    rests.push_back(rest);
+  };
+  // What stands still joins nothing and wakes nobody.
+  for (Ball& ball : balls_) {
+    const Solid solid = ball.solid();
+    if (flies(ball) || solid.moves() || solid.just_put) {
+      add(solid, solid.velocity, flies(ball) ? &ball.rest : nullptr);
+    }
+  }
+  for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.flies()) add(obstacle.solid, obstacle.body->velocity(), &obstacle.rest);
+    if (!obstacle.flies() && obstacle.solid.moves()) add(obstacle.solid, {0, 0, 0}, nullptr);
+  }
+  if (all_sleep) return;  // and nothing comes
+
+  sleepers.insert(sleepers.end(), cloths.begin(), cloths.end());
+  const std::vector<bool> at_rest = islands_at_rest(sleepers);
+  for (std::size_t i = 0; i < rests.size(); ++i) {
+    if (rests[i] == nullptr) continue;
+    if (at_rest[i]) {
+      rests[i]->sleep();
+    } else if (rests[i]->asleep()) {
+      rests[i]->wake();
+    }
+  }
+  for (Ball& ball : balls_) {
+    if (ball.rest.asleep()) ball.velocity = ball.spin = Vec3::Zero();
+  }
+  for (Obstacle& obstacle : obstacles_) {
+    if (!obstacle.rest.asleep()) continue;
+    obstacle.body->rest();
+    fix(obstacle.solid);
+    stop(obstacle.solid);
+  }
+}
+
+void Colliders::wake() {
+  for (Ball& ball : balls_) ball.rest.wake();
+  for (Obstacle& obstacle : obstacles_) obstacle.rest.wake();
+}
+
+void Colliders::wake_near(const Solid& solid) {
+  const Eigen::AlignedBox3d box = box_of(solid, 0);
+  for (Ball& ball : balls_) {
+    if (box.intersects(box_of(ball.solid(), 0))) ball.rest.wake();
+  }
+  for (Obstacle& obstacle : obstacles_) {
+    if (box.intersects(box_of(obstacle.solid, 0))) obstacle.rest.wake();
+  }
+}
+
+void Colliders::watch(double dt) {
+  const double distance = sleep_speed_ * kQuietSteps * dt;
+  for (Ball& ball : balls_) {
+    if (ball.awake()) ball.rest.stepped({ball.position, Quaternion::Identity()}, 0, distance);
+  }
+  for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.awake()) obstacle.rest.stepped(obstacle.pose, outer_radius(obstacle.solid.shape), distance);
+  }
 }
 
 void Colliders::share(ColliderId id, int cloths) {
@@ -249,7 +351,7 @@ bool Colliders::end_step() {
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     Ball& ball = balls_[i];
     ball.just_put = false;
-    if (!flies(ball)) continue;
+    if (!ball.awake()) continue;
     given = given || !ball.pushed.isZero(0) || !ball.sped_up.isZero(0);
     ball.position += std::exchange(ball.pushed, Vec3(0, 0, 0));
     ball.velocity += std::exchange(ball.sped_up, Vec3(0, 0, 0));
@@ -258,7 +360,7 @@ bool Colliders::end_step() {
   stop_bad_balls();
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     Obstacle& obstacle = obstacles_[i];
-    if (!obstacle.flies()) continue;
+    if (!obstacle.awake()) continue;
     given = obstacle.body->take_up(obstacle.pose, solids_[balls_.size() + i]) || given;
     obstacle.body->lead(obstacle.pose, obstacle.solid);
     stop_bad_body(obstacle);
@@ -268,46 +370,63 @@ bool Colliders::end_step() {
 
 bool Colliders::may_meet() const {
   return balls_.size() + obstacles_.size() > 1 &&
-         (std::any_of(balls_.begin(), balls_.end(), [](const Ball& ball) { return flies(ball); }) ||
-          std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.flies(); }));
+         (std::any_of(balls_.begin(), balls_.end(), [](const Ball& ball) { return ball.awake(); }) ||
+          std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.awake(); }));
 }
 
 void Colliders::gather_solids() {
   solids_.clear();
   for (const Ball& ball : balls_) solids_.push_back(ball.solid());
-  for (const Obstacle& obstacle : obstacles_) solids_.push_back(obstacle.solid);
+  for (const Obstacle& obstacle : obstacles_) {
+    solids_.push_back(obstacle.solid);
+    solids_.back().mobile = obstacle.mobile;
+  }
 }
 
 void Colliders::meet(BodyCollision& collision, double dt) {
+  constexpr int kMostRounds = 4;
+  constexpr double kStray = 1e-4;  // m
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!(bend_ways(collision, dt) > kStray)) return;
+  }
+}
+
+double Colliders::bend_ways(BodyCollision& collision, double dt) {
   gather_solids();
   const std::vector<BodyContact>& contacts = collision.find(solids_, dt);
-  if (contacts.empty()) return;
+  if (contacts.empty()) return 0;
   std::vector<MovingBody> bodies;
   for (const Solid& solid : solids_) {
     bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});
   }
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     const Ball& ball = balls_[i];
-    if (!flies(ball)) continue;
+    if (!ball.awake()) continue;
     bodies[i].inverse_inertia.diagonal().setConstant(2.5 / (ball.mass * ball.radius * ball.radius));
     bodies[i].spin = ball.spin;
   }
   resolve(contacts, bodies, dt);
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     Ball& ball = balls_[i];
-    if (!flies(ball)) continue;
+    if (!ball.awake()) continue;
     ball.position += dt * (bodies[i].velocity - ball.velocity) + bodies[i].shift;
     ball.velocity = bodies[i].velocity;
     ball.spin = bodies[i].spin;
   }
   stop_bad_balls();
+  double stray = 0;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     Obstacle& obstacle = obstacles_[i];
-    if (!obstacle.flies()) continue;
-    obstacle.body->go_on(bodies[balls_.size() + i], obstacle.pose, obstacle.solid, dt);
+    if (!obstacle.awake()) continue;
+    const MovingBody& with = bodies[balls_.size() + i];
+    const Vec3& spin = obstacle.solid.spin;
+    const double turn = dt * (with.spin - spin).norm();
+    stray = std::max(stray, turn * (turn + dt * spin.norm()) / 2 * outer_radius(obstacle.solid.shape));
+    obstacle.body->go_on(with, obstacle.pose, obstacle.solid, dt);
     stop_bad_body(obstacle);
   }
   gather_solids();
+  return stray;
 }
 
 void Colliders::stop_bad_body(Obstacle& obstacle) {

@@ -8,6 +8,7 @@
 #include "cloth/contact/body_collision.h"
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
+#include "cloth/islands.h"
 #include "cloth/rigid_body.h"
 
 namespace weft {
@@ -31,7 +32,10 @@ struct Ball {
   Vec3 spin{0, 0, 0};      ///< if dynamic, rad/s: what it rolls on other solids with; cloths see none
   std::vector<Waypoint> path;
   bool loops = false;  ///< the path
+  BodyRest rest;       ///< if dynamic
 
+  /// Dynamic, and flies.
+  bool awake() const { return motion == BallDescription::Motion::dynamic && !rest.asleep(); }
   Solid solid() const;
 };
 
@@ -46,16 +50,20 @@ struct Obstacle {
   bool loops = false;          ///< the path
   std::optional<Pose> target;  ///< where it was told to go, until it is there
   std::optional<RigidBody> body;
+  BodyRest rest;  ///< if it flies
 
+  /// Dynamic, asleep or not.
   bool flies() const { return body && body->dynamic(); }
+  bool awake() const { return flies() && !rest.asleep(); }
 };
 
 /// The scene's balls and obstacles. Ids of balls count up from 1 and are never used again until a reset.
 class Colliders {
  public:
   Colliders() = default;
+  /// `sleep_speed`, m/s, as in SimulationDescription; 0: dynamic balls and bodies never sleep.
   explicit Colliders(const std::vector<BallDescription>& balls,
-                     const std::vector<ObstacleDescription>& obstacles = {});
+                     const std::vector<ObstacleDescription>& obstacles = {}, double sleep_speed = 0);
 
   const std::vector<Ball>& balls() const { return balls_; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
@@ -78,7 +86,16 @@ class Colliders {
 
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
   /// velocity; and every obstacle along its path, to its target, or as it flies.
-  void begin_step(double time, double dt, const Vec3& gravity);
+  ///
+  /// Dynamic balls and bodies that lie still on nothing but what does so too fall asleep before: until
+  /// something comes, moves or is taken away near them they are left where they are, at rest, to the bit, and
+  /// stand still for whoever meets them. `cloths` are those that they may lie on or under; of no use unless
+  /// may_rest().
+  void begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths = {});
+  /// A dynamic ball or body sleeps, or may fall asleep when the next step begins.
+  bool may_rest() const;
+  /// All that sleeps wakes.
+  void wake();
   /// So many cloths, at least 1, will touch the ball, or the body, in the step that has begun. They are
   /// stepped side by side and know nothing of each other, and would all stop the same ball, and so throw it
   /// back: it is for each of them a ball of its share of the mass, and at the end the mean of these, which
@@ -89,10 +106,14 @@ class Colliders {
   void push(const std::vector<Solid>& left);
   /// Dynamic balls and bodies take up what the cloths gave them. False if that is nothing.
   bool end_step();
-  /// There is a dynamic ball or body, and something that it may meet.
+  /// The step of dt, s, is over: tells what lies still.
+  void watch(double dt);
+  /// There is a dynamic ball or body that is awake, and something that it may meet.
   bool may_meet() const;
   /// Dynamic balls and bodies stop and shove each other, and stop at what else is in their way, in the step
   /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
+  /// Again where a hit turned one by so much that what was told of its points by the way that it began with
+  /// is off by more than 0.1 mm.
   void meet(BodyCollision& collision, double dt);
   /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
   /// last good place, at rest and without its path. Single precision, which frames have, still holds it.
@@ -109,6 +130,12 @@ class Colliders {
   };
   void gather_solids();
   void forget_target(BallId id);
+  /// Decides what sleeps through the step of dt, s, in which all that no force moves goes as it does now.
+  void let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths);
+  /// meet(), once. Returns how far a body's points may be off, m: the second order of the turn it was given.
+  double bend_ways(BodyCollision& collision, double dt);
+  /// What is next to the solid wakes.
+  void wake_near(const Solid& solid);
   void stop_bad_balls();
   void stop_bad_body(Obstacle& obstacle);
 
@@ -118,6 +145,7 @@ class Colliders {
   std::vector<Target> targets_;
   std::vector<ColliderId> stopped_;
   BallId next_id_ = 1;
+  double sleep_speed_ = 0;
 };
 
 }  // namespace weft

@@ -268,7 +268,7 @@ struct SimulationDescription {
   IntegratorDescription integrator = Bdf2Description{};
   double time_step = 1.0 / 60.0;  ///< s
   /// A cloth none of whose nodes has got on faster for 60 steps, with nothing moving near it, sleeps: it is
-  /// left as it is until something comes (Sleep), m/s; 0: never.
+  /// left as it is until something comes (Sleep), and so the bodies on it (islands.h), m/s; 0: never.
   double sleep_speed = 1e-4;
   LevelPolicy level_policy;
   std::uint64_t seed = 1;

@@ -47,6 +47,8 @@ class RigidBody {
   void go_on(const MovingBody& with, Pose& pose, Solid& solid, double dt);
   /// All of it and of the pose is a number, and none beyond `farthest`.
   bool sound(const Pose& pose, double farthest) const;
+  /// It is at rest where it is.
+  void rest() { velocity_ = turning_ = Vec3::Zero(); }
   /// Back to where the last step began, at rest.
   void stop(Pose& pose, Solid& solid);
 

@@ -36,7 +36,7 @@ template <class Real>
 void Simulation<Real>::reset() {
   air_ = Air(description_.wind, description_.seed);
   body_collision_.reset();
-  colliders_ = Colliders(description_.balls, description_.obstacles);
+  colliders_ = Colliders(description_.balls, description_.obstacles, description_.sleep_speed);
   cloths_ = make_cloths<Real>(description_);
   compose(description_.effects);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
@@ -65,6 +65,7 @@ void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects
     cloth.set_layers(nullptr);
     cloth.set_effects(effects);
   }
+  colliders_.wake();
   compose(effects);
 }
 
@@ -107,7 +108,7 @@ void Simulation<Real>::step() {
   for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
   profile_.levels = seconds(Clock::now() - begin);
 
-  colliders_.begin_step(time(), dt, gravity_);
+  colliders_.begin_step(time(), dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>());
   meet_bodies(dt);
   if (cloths_.size() > 1) share_balls(dt);
   double layers = 0;  // s
@@ -130,10 +131,18 @@ void Simulation<Real>::step() {
     profile_.check += last_advance_[i].check_seconds;
   }
   if (colliders_.end_step()) meet_bodies(dt);  // what the cloths press into others stays outside
+  colliders_.watch(dt);
   ++steps_;
 
   collect_guard_events();
   profile_.total = seconds(Clock::now() - begin);
+}
+
+template <class Real>
+std::vector<Sleeper> Simulation<Real>::sleepers() const {
+  std::vector<Sleeper> all;
+  for (const Cloth<Real>& cloth : cloths_) all.push_back(cloth.sleeper());
+  return all;
 }
 
 template <class Real>

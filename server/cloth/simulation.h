@@ -100,6 +100,8 @@ class Simulation {
  private:
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
   void compose(const std::vector<EffectDescription>& effects);
+  /// All cloths, for islands of what sleeps together.
+  std::vector<Sleeper> sleepers() const;
   /// Dynamic balls and bodies meet each other and what is in their way.
   void meet_bodies(double dt);
   /// Tells the balls how many cloths will touch them.

@@ -61,6 +61,12 @@ void Sleep::stepped(double speed, double dt, const Particles<Real>& particles,
 }
 
 template <class Real>
+Sleeper Sleep::sleeper(const Particles<Real>& particles) const {
+  if (asleep()) return {box_, true};
+  return {box_around(particles, kMargin), !watched_.empty() && quiet_steps_ >= kQuietSteps};
+}
+
+template <class Real>
 void Sleep::watch(const Particles<Real>& particles) {
   const Grid& grid = particles.grid();
   watched_.clear();
@@ -97,6 +103,8 @@ std::optional<std::vector<Sleep::Neighbour>> Sleep::neighbours(const std::vector
 
 template bool Sleep::through(const Particles<float>&, const std::vector<Solid>&, const Air&);
 template bool Sleep::through(const Particles<double>&, const std::vector<Solid>&, const Air&);
+template Sleeper Sleep::sleeper(const Particles<float>&) const;
+template Sleeper Sleep::sleeper(const Particles<double>&) const;
 template void Sleep::stepped(double, double, const Particles<float>&, const std::vector<Solid>&);
 template void Sleep::stepped(double, double, const Particles<double>&, const std::vector<Solid>&);
 

@@ -4,6 +4,7 @@
 
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
+#include "cloth/islands.h"
 #include "cloth/particles.h"
 #include "cloth/wind/air.h"
 
@@ -17,9 +18,8 @@ namespace weft {
 class Sleep {
  public:
   /// Steps in a row after which all nodes must lie as near to where they were after the first as the
-  /// threshold takes them in that time. A second at 60 Hz: what turns round, as a pendulum does, is slow for
-  /// a moment only.
-  static constexpr int kQuietSteps = 60;
+  /// threshold takes them in that time.
+  static constexpr int kQuietSteps = weft::kQuietSteps;
   /// A solid is near that comes within this share of the cloth's largest extent of its bounding box.
   static constexpr double kMargin = 0.01;
 
@@ -42,6 +42,9 @@ class Sleep {
   /// but for the steps in which a solid near it moves or yields.
   template <class Real>
   bool through(const Particles<Real>& particles, const std::vector<Solid>& solids, const Air& air);
+  /// It, for islands: it is quiet while it sleeps or would but for what lies on it.
+  template <class Real>
+  Sleeper sleeper(const Particles<Real>& particles) const;
   /// After a step of dt, s, that left the cloth at `speed` at most, m/s: falls asleep if it is time.
   template <class Real>
   void stepped(double speed, double dt, const Particles<Real>& particles, const std::vector<Solid>& solids);

@@ -33,6 +33,12 @@ const TriangleMesh* surface_of(const Solid& solid) {
   return mesh == nullptr ? nullptr : mesh->surface;
 }
 
+/// One of the two is where it is for good.
+bool is_firm(const Solid& a, const Solid& b) {
+  const auto fixed = [](const Solid& solid) { return !solid.yields() && !solid.mobile; };
+  return fixed(a) || fixed(b);
+}
+
 /// How far any of its points moves in the step at most, m.
 double most_move(const Solid& solid) {
   const double way = (solid.position - solid.start).norm();
@@ -152,7 +158,8 @@ class Meeting {
       const Vec3 normal = b.surface(place).normal - a.surface(place).normal;
       if (!place.allFinite() || !(normal.norm() > 0.1)) continue;
       const Vec3 arm_a = place - a_.position, arm_b = place - b_.position;
-      add(arm_a, arm_b, normal.normalized(), normal.normalized().dot(move_of(arm_a, arm_b)));
+      const Vec3 move = move_of(in_the_middle(a_, arm_a, 1), in_the_middle(b_, arm_b, 1));
+      add(arm_a, arm_b, normal.normalized(), normal.normalized().dot(move));
     }
   }
 
@@ -228,22 +235,31 @@ class Meeting {
       const Vec3 at = place - corner.radius * surface.normal;
       const Vec3 arm_corner = at - corners.at(share), arm_on = at - on.at(share);
       if (swapped) {
-        add(arm_on, arm_corner, -surface.normal, end);
+        add(arm_on, arm_corner, -surface.normal, end, share);
       } else {
-        add(arm_corner, arm_on, surface.normal, end);
+        add(arm_corner, arm_on, surface.normal, end, share);
       }
       return;
     }
   }
 
-  /// Of a's point as seen from b's, in the step, m.
+  /// Of a's point as seen from b's, in the step, m; the arms as they are in its middle.
   Vec3 move_of(const Vec3& arm_a, const Vec3& arm_b) const {
     return dt_ * (a_.velocity + a_.spin.cross(arm_a) - b_.velocity - b_.spin.cross(arm_b));
   }
-  /// `end` is the gap at the step's end.
-  void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end) {
-    contacts_.push_back({index_.first, index_.second, arm_a, arm_b, normal,
-                         end - normal.dot(move_of(arm_a, arm_b)), std::sqrt(a_.friction * b_.friction)});
+  /// The arm, which is as it is at `share` of the step, in its middle: the way of a point of what turns is
+  /// its velocity there but for the third order of the turn. By those of the step's end a body that rolls
+  /// over an edge would be told, of the second, that it was in before.
+  static Vec3 in_the_middle(const Solid& solid, const Vec3& arm, double share) {
+    if (!solid.turns()) return arm;
+    return Eigen::AngleAxisd((0.5 - share) * solid.turn.norm(), solid.turn.stableNormalized()) * arm;
+  }
+  /// The arms at `share` of the step; `end` is the gap at its end.
+  void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end, double share = 1) {
+    const Vec3 middle_a = in_the_middle(a_, arm_a, share), middle_b = in_the_middle(b_, arm_b, share);
+    contacts_.push_back({index_.first, index_.second, middle_a, middle_b, normal,
+                         end - normal.dot(move_of(middle_a, middle_b)), std::sqrt(a_.friction * b_.friction),
+                         is_firm(a_, b_)});
   }
 
   Pair index_;
@@ -286,8 +302,7 @@ struct BodyCollision::Impl {
                   [&](const Pair& p) { return !solid(p.first).yields() && !solid(p.second).yields(); });
     const auto firmness = [&](const Pair& p) {
       const Solid &a = solid(p.first), &b = solid(p.second);
-      if (a.yields() && b.yields()) return 0;
-      return a.yields() ? (b.moves() ? 1 : 2) : (a.moves() ? 1 : 2);
+      return is_firm(a, b) ? 2 : a.yields() && b.yields() ? 0 : 1;
     };
     std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) {
       return std::make_pair(firmness(p), p) < std::make_pair(firmness(q), q);

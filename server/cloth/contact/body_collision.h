@@ -24,7 +24,7 @@ class BodyCollision {
   BodyCollision& operator=(const BodyCollision&) = delete;
 
   /// In a step of dt, s, in which the solids go as they say. Ordered: between two that yield first, with what
-  /// stands still last, so that this is given way to least; then by solid. None if a solid that yields is not
+  /// never moves last, so that this is given way to least; then by solid. None if a solid that yields is not
   /// at a finite place. Meshes must outlive this. Valid until the next call.
   const std::vector<BodyContact>& find(const std::vector<Solid>& solids, double dt);
 

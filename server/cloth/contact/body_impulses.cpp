@@ -80,18 +80,32 @@ double rub(Row& row) {
   return change.norm() * inverse_mass;
 }
 
-/// Apart by a share of the overlap that the step's ways leave. Returns the change, m.
+/// Apart by a share of the overlap that the step's ways leave, and no nearer than a gap that they leave: what
+/// pushes from the other side must not bring in what is outside. Returns the change, m.
 double part(Row& row, double dt) {
-  const double gap = row.contact->gap;
-  if (gap >= 0) return 0;
-  const double opens = std::max(0.0, row.contact->normal.dot(row.velocity())) * dt;
-  const double wanted = -kShare * std::min(0.0, gap + opens);
+  const double gap = row.contact->gap, opens = row.contact->normal.dot(row.velocity()) * dt;
+  const double wanted =
+      gap >= 0 ? std::min(0.0, -gap - opens) : -kShare * std::min(0.0, gap + std::max(0.0, opens));
   const double change_wanted = (wanted - row.shift_along_normal()) / row.inverse_mass;
   const double displacement = std::max(0.0, row.displacement + change_wanted);
   const double change = displacement - row.displacement;
   row.displacement = displacement;
   row.shift(change * row.contact->normal);
   return std::abs(change) * row.inverse_mass;
+}
+
+/// `change_by`(row) over all rows until it changes by `converged` at most; where that is not to be had, over
+/// those from `firm` on then, which nothing gives way to.
+template <class Change>
+void sweep(std::vector<Row>& rows, std::vector<Row>::iterator firm, double converged,
+           const Change& change_by) {
+  for (const auto first : {rows.begin(), firm}) {
+    for (int i = 0; i < kSweeps; ++i) {
+      double change = 0;
+      for (auto row = first; row != rows.end(); ++row) change = std::max(change, change_by(*row));
+      if (!(change > converged)) return;
+    }
+  }
 }
 
 }  // namespace
@@ -105,19 +119,12 @@ void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& 
     row.inverse_mass = row.inverse_mass_along(contact.normal);
     if (row.inverse_mass > 0) rows.push_back(row);
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double change = 0;
-    for (Row& row : rows) {
-      if (row.contact->friction > 0) change = std::max(change, rub(row));
-      change = std::max(change, stop_approach(row, dt));
-    }
-    if (!(change > kConverged)) break;
-  }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double change = 0;
-    for (Row& row : rows) change = std::max(change, part(row, dt));
-    if (!(change > kConverged * dt)) break;
-  }
+  const auto firm = std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.contact->firm; });
+  sweep(rows, firm, kConverged, [&](Row& row) {
+    const double rubbed = row.contact->friction > 0 ? rub(row) : 0;
+    return std::max(rubbed, stop_approach(row, dt));
+  });
+  sweep(rows, firm, kConverged * dt, [&](Row& row) { return part(row, dt); });
 }
 
 }  // namespace weft

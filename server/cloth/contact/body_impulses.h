@@ -22,6 +22,9 @@ struct MovingBody {
 /// ahead as in his Continuous Collision, GDC 2013). What takes no way into a gap loses no speed; what
 /// overlaps is shifted apart by a share of it, which gives no speed. Each impulse takes energy: of two bodies
 /// that nothing else moves there is never more.
+///
+/// Where there is no way that all contacts allow, as of a body between the ground and a press that leaves
+/// less room than it has, the firm ones, which come last, are kept and the others overlap.
 void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies, double dt);
 
 }  // namespace weft

@@ -23,6 +23,8 @@ struct Solid {
   /// It was put where it is since the last step: what of a cloth is inside is let out without motion
   /// (settle); pushed out by the step it would fly off.
   bool just_put = false;
+  /// It moves, moved since the start or may; else it is where the scene has it: the ground.
+  bool mobile = false;
   Vec3 start{0, 0, 0};     ///< centre at the step's start, m
   Vec3 position{0, 0, 0};  ///< at its end, m
   Vec3 velocity{0, 0, 0};  ///< along the way, m/s

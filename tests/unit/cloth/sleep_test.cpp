@@ -232,15 +232,23 @@ TEST(SleepTest, AThrownBallWakesItWhenItArrives) {
   EXPECT_FALSE(asleep(simulation));
 }
 
-TEST(SleepTest, ADynamicBallOnItKeepsItAwake) {
+TEST(SleepTest, ADynamicBallOnItSleepsWithItAndNotBefore) {
   SimulationDescription scene = floating_scene();
   BallDescription ball = ball_at({0, 0, 0.2}, 0.2);
   ball.motion = BallDescription::Motion::dynamic;  // no gravity: it stays
   scene.balls = {ball};
   Simulation<float> simulation(scene);
   run(simulation, 300);
-  EXPECT_FALSE(asleep(simulation));
+  EXPECT_TRUE(asleep(simulation));
+  EXPECT_TRUE(simulation.colliders().balls()[0].rest.asleep());
   EXPECT_EQ(simulation.colliders().balls()[0].position, Vec3(0, 0, 0.2));
+  scene.balls[0].velocity = {0, 0, 1e-3};  // ten times the speed below which it sleeps
+  Simulation<float> moves(scene);
+  for (int step = 0; step < 300; ++step) {
+    moves.step();
+    ASSERT_FALSE(asleep(moves)) << step;  // 5 mm on: within the margin of 20 mm
+  }
+  EXPECT_FALSE(moves.colliders().balls()[0].rest.asleep());
 }
 
 TEST(SleepTest, APinThatHasYetToMoveKeepsItAwake) {

@@ -1,0 +1,60 @@
+#include "cloth/islands.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace weft {
+namespace {
+
+/// Sets that are joined step by step (disjoint-set forest, path halving: Tarjan and van Leeuwen, 1984).
+class Islands {
+ public:
+  explicit Islands(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::size_t of(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) { parent_[of(i)] = of(j); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+void BodyRest::stepped(const Pose& pose, double reach, double distance) {
+  const double turned = pose.orientation.angularDistance(began_.orientation);
+  const double gone = (pose.position - began_.position).norm() + reach * turned;
+  if (quiet_steps_ > 0 && gone < distance) {
+    ++quiet_steps_;
+    return;
+  }
+  began_ = pose;
+  quiet_steps_ = 1;
+}
+
+std::vector<bool> islands_at_rest(const std::vector<Sleeper>& sleepers) {
+  // Sweep along x: only boxes that overlap there are compared.
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < sleepers.size(); ++i) {
+    if ((sleepers[i].box.min().array() <= sleepers[i].box.max().array()).all()) order.push_back(i);
+  }
+  const auto low = [&](std::size_t i) { return sleepers[i].box.min().x(); };
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::make_pair(low(i), i) < std::make_pair(low(j), j);
+  });
+  Islands islands(sleepers.size());
+  for (auto i = order.begin(); i != order.end(); ++i) {
+    for (auto j = i + 1; j != order.end() && low(*j) <= sleepers[*i].box.max().x(); ++j) {
+      if (sleepers[*i].box.intersects(sleepers[*j].box)) islands.join(*i, *j);
+    }
+  }
+  std::vector<bool> at_rest(sleepers.size(), true);
+  for (std::size_t i = 0; i < sleepers.size(); ++i) {
+    if (!sleepers[i].quiet) at_rest[islands.of(i)] = false;
+  }
+  for (std::size_t i = 0; i < sleepers.size(); ++i) at_rest[i] = at_rest[islands.of(i)];
+  return at_rest;
+}
+
+}  // namespace weft
