@@ -77,6 +77,12 @@ struct ObstacleThrow {
   Vector velocity{};
   Vector spin{};
 };
+struct ObstacleGrab {
+  std::uint32_t obstacle = 0;      ///< its place in `scene`
+  Vector point{};                  ///< what is held, from its centre along its own axes
+  std::optional<Vector> position;  ///< of the hand; without one where the point is
+  double max_force = 100;
+};
 struct ClothGrab {
   std::uint32_t cloth = 0;
   double u = 0, v = 0;
@@ -105,7 +111,8 @@ struct EffectSet {
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
-  std::optional<double> gusts = {};  ///< intensity; without it that stays
+  std::optional<double> gusts = {};       ///< intensity; without it that stays
+  std::optional<double> turbulence = {};  ///< the same
 };
 struct WindZoneSet {
   std::uint32_t zone = 0;  ///< its place in the wind's zones
@@ -127,10 +134,10 @@ struct Ping {
   double t = 0;
 };
 
-using Command =
-    std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow, BallRemove,
-                 ObstacleMove, ObstacleThrow, ClothGrab, GrabMove, GrabRelease, ClothPin, ClothUnpin,
-                 EffectSet, WindSet, WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
+                             BallRemove, ObstacleMove, ObstacleThrow, ObstacleGrab, ClothGrab, GrabMove,
+                             GrabRelease, ClothPin, ClothUnpin, EffectSet, WindSet, WindZoneSet, Quality,
+                             Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -1,4 +1,4 @@
-import {BallHand} from './ball_hand.js';
+import {BodyHand} from './body_hand.js';
 import {CameraRig, ViewReporter} from './camera_rig.js';
 import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
@@ -6,6 +6,7 @@ import {EffectsPanel} from './effects_panel.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
 import {Link} from './link.js';
+import {ObstaclesPanel} from './obstacles_panel.js';
 import {Panel} from './panel.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Show} from './show.js';
@@ -65,16 +66,15 @@ function start(settings) {
       show.setWireframe(on);
       panel.setWireframe(on);
     },
-    setWind: (direction, speed, gusts) => command({op: 'wind.set', direction, speed, gusts}),
+    setWind: (wind) => command({op: 'wind.set', ...wind}),
     addBall: async () => {
       const reply = await command({op: 'ball.add', position: placeForBall(), radius: kBallRadius});
       if (reply) choose(reply.ball);
     },
     removeBall: (ball) => command({op: 'ball.remove', ball}),
     throwBall: (ball) => {
-      const from = show.balls.ball(ball)?.position;
-      const to = nearest()?.centre;
-      if (from && to) command({op: 'ball.throw', ball, velocity: aimed(from, to, kButtonThrow)});
+      const velocity = aimedAtCloth(show.balls.ball(ball)?.position);
+      if (velocity) command({op: 'ball.throw', ball, velocity});
     },
     chooseBall: choose,
     moveBall: (ball, position) => command({op: 'ball.move', ball, position}),
@@ -98,13 +98,25 @@ function start(settings) {
     setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
     showZones: (on) => show.setZonesShown(on),
   });
+  const chooseObstacle = (obstacle) => {
+    show.obstacles.select(obstacle);
+    stage.changed = true;
+  };
+  const obstacles = new ObstaclesPanel({
+    choose: chooseObstacle,
+    move: (obstacle, position) => command({op: 'obstacle.move', obstacle, position}),
+    throw: (obstacle) => {
+      const velocity = aimedAtCloth(show.obstacles.place(obstacle));
+      if (velocity) command({op: 'obstacle.throw', obstacle, velocity});
+    },
+  });
   let effectsOff = [];
   const setEffectsOff = (off) => {
     effectsOff = off;
     effects.setOff(off);
   };
   panel.setWireframe(settings.wireframe);
-  // Before the ball's hand: it takes what Shift and the tool make its own, and leaves the rest.
+  // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   const clothHand = new ClothHand(stage, show, {
     grab: async (cloth, u, v, position) => (await command({op: 'cloth.grab', cloth, u, v, position}))?.grab ?? null,
     // A reset by somebody else may have ended it.
@@ -113,10 +125,13 @@ function start(settings) {
     pin: (cloth, u, v) => command({op: 'cloth.pin', cloth, u, v}),
     unpin: (cloth, u, v) => command({op: 'cloth.unpin', cloth, u, v}),
   });
-  const hand = new BallHand(stage, show.balls, {
-    move: actions.moveBall,
-    throw: (ball, velocity) => command({op: 'ball.throw', ball, velocity}),
-    taken: choose,
+  const hand = new BodyHand(stage, show, {
+    command,
+    taken: ({ball, obstacle}) => {
+      if (ball !== undefined) return choose(ball);
+      obstacles.choose(obstacle);
+      chooseObstacle(obstacle);
+    },
     holding: (holds) => (rig.controls.enabled = !holds),
   });
   new ResizeObserver(() => stage.setInsets(...panel.covers())).observe(document.getElementById('controls'));
@@ -137,6 +152,12 @@ function start(settings) {
     return centre.map((value, axis) => value + (away[axis] / distance) * reach);
   }
 
+  /** Velocity of a throw from there to the nearest cloth, if both are known. */
+  function aimedAtCloth(from) {
+    const to = nearest()?.centre;
+    return from && to && aimed(from, to, kButtonThrow);
+  }
+
   // --- What the server says ---
 
   const view = new ViewReporter((seen) => command({op: 'camera', ...seen}));
@@ -145,6 +166,8 @@ function start(settings) {
     hud.showConnection(detail.state);
     panel.setLive(detail.state === 'open');
     clothHand.forget();
+    hand.forget();
+    obstacles.setLive(detail.state === 'open');
     cost.setLive(detail.state === 'open');
     effects.setLive(detail.state === 'open');
     zones.setLive(detail.state === 'open');
@@ -177,6 +200,7 @@ function start(settings) {
   const handlers = {
     scene: (message) => {
       clothHand.forget();
+      hand.forget();
       show.begin(message);
       view.forget();
       if (sceneShown !== message.name) {
@@ -190,6 +214,7 @@ function start(settings) {
       panel.setPaused(message.paused);
       panel.setWind(show.wind, show.hasWind);
       zones.begin(show.wind);
+      obstacles.begin(message.obstacles ?? []);
       effects.begin(message.effects);
       setEffectsOff(message.effects_off ?? []);
       tellNothing();
@@ -214,6 +239,7 @@ function start(settings) {
         setEffectsOff([]);
         tellNothing();
         clothHand.forget();
+        hand.forget();
         message.pins?.forEach((pins, cloth) => show.setPins(cloth, pins));
       }
     },
@@ -269,6 +295,7 @@ function start(settings) {
     if (chosenBall === null || !ids.includes(chosenBall)) choose(ids[0] ?? null);
     panel.setBalls(ids, chosenBall);
     panel.setBallPlace(show.balls.ball(chosenBall)?.position);
+    obstacles.setPlace(show.obstacles.place(obstacles.chosen));
   }
 
   function showWaiting(nowMs) {
@@ -313,6 +340,7 @@ function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, e
         settled: !show.moving && !stage.changed && !rig.flight,
         lastFrame: show.timeline.newest?.stamp ?? null,
         wind: show.wind,
+        obstacles: show.obstacles.meshes.map((_, index) => show.obstacles.place(index)),
         hand: clothHand.held,
         effectsOff: effectsOff(),
         pins: Object.fromEntries(show.marks.held),
@@ -328,7 +356,9 @@ function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, e
       rig.goTo(distance);
     },
     /** The ball drawn at a point of the page, or null. */
-    ballAt: (x, y) => hand.ballAt(x, y)?.ball ?? null,
+    ballAt: (x, y) => hand.thingAt(x, y)?.ball ?? null,
+    /** The obstacle to be dragged at a point of the page, or null. */
+    obstacleAt: (x, y) => hand.thingAt(x, y)?.obstacle ?? null,
     /** Where a point of the scene is on the page, CSS pixels. */
     toPage([x, y, z]) {
       const point = stage.camera.position.clone().set(x, y, z).project(stage.camera);

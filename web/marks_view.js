@@ -1,10 +1,10 @@
-import {BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, Points, PointsMaterial} from './three/three.module.js';
+import {BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, Points, PointsMaterial, Vector3} from './three/three.module.js';
 
 const kPinColour = 0xd1495b, kHandColour = 0xf2a541;
 const kPinPixels = 9, kHandPixels = 17;
 const kApart = 1 / 16;  // of the cloth, between two marks of a pin that holds an edge or a patch
 
-/** Marks on the cloths: where they are pinned, and this viewer's hand with what it holds. Of one size on the page, and before all else. */
+/** Marks on the cloths: where they are pinned, and this viewer's hand with what it holds of a cloth or a body. Of one size on the page, and before all else. */
 export class MarksView {
   constructor() {
     const map = disc();
@@ -38,7 +38,7 @@ export class MarksView {
     this.changed = true;
   }
 
-  /** @param {{cloth: number, u: number, v: number, position: number[]}|null} hand */
+  /** @param {{position: number[], cloth: number, u: number, v: number}|{position: number[], mesh: Mesh, point: number[]}|null} hand what it holds of a cloth or a mesh */
   setHand(hand) {
     this.at = hand;
     this.hand.visible = this.arm.visible = hand !== null;
@@ -58,11 +58,21 @@ export class MarksView {
       }
     }
     setPlaces(this.pins.geometry, places);
-    const view = this.at && cloths.get(this.at.cloth);
-    if (!view?.record) return;
+    const held = this.at && placeHeld(this.at, cloths);
+    if (!held) return;
     setPlaces(this.hand.geometry, this.at.position);
-    setPlaces(this.arm.geometry, [...this.at.position, ...view.placeAt(this.at.u, this.at.v)]);
+    setPlaces(this.arm.geometry, [...this.at.position, ...held]);
   }
+}
+
+/** Where what a hand holds is shown, or null while it is not. */
+function placeHeld({cloth, u, v, mesh, point}, cloths) {
+  if (mesh) {
+    mesh.updateMatrixWorld();
+    return mesh.localToWorld(new Vector3(...point)).toArray();
+  }
+  const view = cloths.get(cloth);
+  return view?.record ? view.placeAt(u, v) : null;
 }
 
 function along([from, to]) {

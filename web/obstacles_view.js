@@ -4,6 +4,8 @@ import {
 import {creased} from './creased.js';
 
 const kColour = 0xb9b2a6;
+const kBodyColour = 0xb98052;  // of what has a mass
+const kChosenGlow = 0.18;
 const kPlaneSide = 400;  // m, to where the camera sees no more; a plane has no end
 const kGap = 0.004;  // m; nodes lie on the surface, and would flicker through it
 
@@ -11,7 +13,9 @@ const kGap = 0.004;  // m; nodes lie on the surface, and would flicker through i
 export class ObstaclesView {
   constructor() {
     this.group = new Group();
-    this.material = new MeshStandardMaterial({color: kColour, roughness: 0.9});
+    const material = (color, glow) => new MeshStandardMaterial({color, roughness: 0.9, emissive: color, emissiveIntensity: glow});
+    this.fixed = {plain: material(kColour, 0), chosen: material(kColour, kChosenGlow)};
+    this.bodies = {plain: material(kBodyColour, 0), chosen: material(kBodyColour, kChosenGlow)};
     /** @type {(Mesh|null)[]} in the scene's order */
     this.meshes = [];
   }
@@ -19,8 +23,9 @@ export class ObstaclesView {
   /** @param {import('./client/weft.js').Obstacle[]} obstacles */
   show(obstacles) {
     this.clear();
-    this.meshes = obstacles.map((obstacle) => this.#mesh(obstacle));
+    this.meshes = obstacles.map((obstacle, index) => this.#mesh(obstacle, index));
     for (const mesh of this.meshes) if (mesh) this.group.add(mesh);
+    this.select(null);
   }
 
   /** Gives an obstacle, by its place in the scene, its surface. */
@@ -32,13 +37,28 @@ export class ObstaclesView {
     geometry.computeBoundingSphere();
   }
 
+  /** Where an obstacle is in the newest frame, m, or undefined. */
+  place(index) {
+    return this.meshes[index]?.userData.now.position;
+  }
+
+  /** Marks one obstacle (or none) as the one that the controls act on; planes have no need of it. */
+  select(index) {
+    this.meshes.forEach((mesh, each) => {
+      if (!mesh) return;
+      const {shape, mass} = mesh.userData.home;
+      mesh.material = (mass ? this.bodies : this.fixed)[each === index && shape !== 'plane' ? 'chosen' : 'plain'];
+    });
+  }
+
   /** Puts those that moved on their way from `before` to `after` by `share`, the others where `scene` has them. */
   move(before, after, share) {
     const pose = (moved, index) => moved.find(({obstacle}) => obstacle === index);
     this.meshes.forEach((mesh, index) => {
       if (!mesh) return;
       const home = mesh.userData.home;
-      this.#place(mesh, pose(after, index) ?? home);
+      mesh.userData.now = pose(after, index) ?? home;
+      this.#place(mesh, mesh.userData.now);
       if (share === 1 || before === after) return;
       const to = {position: mesh.position.clone(), quaternion: mesh.quaternion.clone()};
       this.#place(mesh, pose(before, index) ?? home);
@@ -61,10 +81,10 @@ export class ObstaclesView {
     this.meshes = [];
   }
 
-  #mesh(obstacle) {
-    const mesh = new Mesh(undefined, this.material);
+  #mesh(obstacle, index) {
+    const mesh = new Mesh();
     mesh.receiveShadow = true;
-    mesh.userData.home = obstacle;
+    mesh.userData = {obstacle: index, home: obstacle, now: obstacle};
     if (obstacle.shape === 'plane') {
       mesh.geometry = new PlaneGeometry(kPlaneSide, kPlaneSide);
       mesh.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3().fromArray(obstacle.normal));

@@ -1,3 +1,4 @@
+import {PlaceFields} from './place_fields.js';
 import {anglesOf, directionOf} from './wind_angles.js';
 
 const byId = (id) => document.getElementById(id);
@@ -14,7 +15,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
  * @property {() => void} reset
  * @property {(distance: number) => void} goTo
  * @property {(on: boolean) => void} setWireframe
- * @property {(direction: number[], speed: number, gusts: number) => void} setWind
+ * @property {(wind: {direction: number[], speed: number, gusts: number, turbulence: number}) => void} setWind
  * @property {() => void} addBall
  * @property {(ball: number) => void} removeBall
  * @property {(ball: number) => void} throwBall
@@ -28,7 +29,6 @@ export class Panel {
     this.actions = actions;
     this.paused = false;
     this.ballIds = [];
-    this.ballHeldUntilMs = 0;
     this.windHeldUntilMs = 0;
     this.#wireButtons();
     this.#wireWind();
@@ -77,7 +77,7 @@ export class Panel {
     byId('hand').setAttribute('aria-pressed', String(on));
   }
 
-  /** @param {{direction: number[], speed: number, gusts?: number}} wind @param {boolean} available whether the scene has an effect of wind */
+  /** @param {{direction: number[], speed: number, gusts?: number, turbulence?: number}} wind @param {boolean} available whether the scene has an effect of wind */
   setWind(wind, available) {
     this.windAvailable = available;
     byId('wind-absent').hidden = available;
@@ -91,6 +91,7 @@ export class Panel {
       if (Math.abs(tilt) < 90) byId('wind-heading').value = String(heading);
       byId('wind-tilt').value = String(tilt);
       byId('wind-gusts').value = String(wind.gusts ?? 0);
+      byId('wind-eddies').value = String(wind.turbulence ?? 0);
       this.#showWind();
     }
   }
@@ -106,13 +107,9 @@ export class Panel {
     this.#enableBalls();
   }
 
-  /** Place of the chosen ball; a field being typed in is left alone, and so are all until the server had time to move the ball. */
+  /** @param {number[]|undefined} position of the chosen ball, m */
   setBallPlace(position) {
-    if (performance.now() < this.ballHeldUntilMs) return;
-    for (const input of byId('ball-place').querySelectorAll('input')) {
-      const text = position ? position[Number(input.dataset.axis)].toFixed(2) : '';
-      if (input !== document.activeElement && input.value !== text) input.value = text;
-    }
+    this.ballPlace.show(position);
   }
 
   /** @returns {[number, number]} what the panel covers of the window's right and bottom, CSS pixels */
@@ -133,7 +130,7 @@ export class Panel {
   #enableBalls() {
     const none = !this.live || this.ballIds.length === 0;
     for (const id of ['ball-remove', 'ball-throw', 'ball']) byId(id).disabled = none;
-    for (const input of byId('ball-place').querySelectorAll('input')) input.disabled = none;
+    this.ballPlace.enable(!none);
   }
 
   #wireButtons() {
@@ -154,9 +151,8 @@ export class Panel {
     let timer = null;
     const send = () => {
       timer = null;
-      this.actions.setWind(
-        directionOf(Number(byId('wind-heading').value), Number(byId('wind-tilt').value)),
-        Number(byId('wind-speed').value), Number(byId('wind-gusts').value));
+      const [speed, heading, tilt, gusts, turbulence] = this.#sliders();
+      this.actions.setWind({direction: directionOf(heading, tilt), speed, gusts, turbulence});
     };
     byId('wind').addEventListener('input', () => {
       this.windHeldUntilMs = performance.now() + kHoldMs;
@@ -165,12 +161,18 @@ export class Panel {
     });
   }
 
+  /** Speed, heading, tilt, gusts, eddies. */
+  #sliders() {
+    return ['speed', 'heading', 'tilt', 'gusts', 'eddies'].map((name) => Number(byId(`wind-${name}`).value));
+  }
+
   #showWind() {
-    const [speed, heading, tilt, gusts] = ['wind-speed', 'wind-heading', 'wind-tilt', 'wind-gusts'].map((id) => Number(byId(id).value));
+    const [speed, heading, tilt, gusts, eddies] = this.#sliders();
     byId('wind-speed-value').textContent = `${speed.toFixed(1)} m/s`;
     byId('wind-heading-value').textContent = `${heading}°`;
     byId('wind-tilt-value').textContent = `${tilt}°`;
     byId('wind-gusts-value').textContent = `${Math.round(100 * gusts)} %`;
+    byId('wind-eddies-value').textContent = `${Math.round(100 * eddies)} %`;
   }
 
   #wireBalls() {
@@ -179,15 +181,10 @@ export class Panel {
     byId('ball-remove').addEventListener('click', () => actions.removeBall(this.#chosenBall()));
     byId('ball-throw').addEventListener('click', () => actions.throwBall(this.#chosenBall()));
     byId('ball').addEventListener('change', () => {
-      this.ballHeldUntilMs = 0;
+      this.ballPlace.release();
       actions.chooseBall(this.#chosenBall());
     });
-    byId('ball-place').addEventListener('change', () => {
-      const values = [...byId('ball-place').querySelectorAll('input')].map((input) => input.valueAsNumber);
-      if (!values.every(Number.isFinite)) return;
-      this.ballHeldUntilMs = performance.now() + kHoldMs;
-      actions.moveBall(this.#chosenBall(), values);
-    });
+    this.ballPlace = new PlaceFields(byId('ball-place'), (position) => actions.moveBall(this.#chosenBall(), position));
   }
 
   #wireFold() {

@@ -203,6 +203,26 @@ bool Colliders::throw_obstacle(std::size_t index, const Vec3& velocity, const Ve
   return true;
 }
 
+bool Colliders::grab(const BodyHand& hand) {
+  if (hand.obstacle >= obstacles_.size() || !obstacles_[hand.obstacle].body) return false;
+  const Obstacle& held = obstacles_[hand.obstacle];
+  if (!held.flies()) throw_obstacle(hand.obstacle, held.solid.velocity, held.solid.spin);
+  hands_.push_back(hand);
+  return true;
+}
+
+bool Colliders::move_grab(GrabId id, const Vec3& hand) {
+  const auto found =
+      std::find_if(hands_.begin(), hands_.end(), [&](const BodyHand& h) { return h.id == id; });
+  if (found == hands_.end()) return false;
+  found->hand = hand;
+  return true;
+}
+
+bool Colliders::release(GrabId id) {
+  return std::erase_if(hands_, [&](const BodyHand& hand) { return hand.id == id; }) > 0;
+}
+
 void Colliders::forget_target(BallId id) {
   std::erase_if(targets_, [&](const Target& target) { return target.ball == id; });
 }
@@ -234,6 +254,7 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity, const st
   for (Obstacle& obstacle : obstacles_) {
     if (obstacle.mobile && !obstacle.flies()) advance(obstacle, time, dt);
   }
+  for (const BodyHand& hand : hands_) obstacles_[hand.obstacle].rest.wake();
   if (may_rest()) let_sleep(dt, gravity, cloths);
   for (Ball& ball : balls_) {
     if (!ball.awake() || !ball.path.empty()) continue;
@@ -241,6 +262,10 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity, const st
     ball.position += ball.velocity * dt;
   }
   stop_bad_balls();
+  for (const BodyHand& hand : hands_) {
+    Obstacle& held = obstacles_[hand.obstacle];
+    if (held.flies()) pull(hand, *held.body, held.pose, gravity, dt);
+  }
   for (Obstacle& obstacle : obstacles_) {
     if (!obstacle.awake()) continue;
     obstacle.body->fly(obstacle.pose, obstacle.solid, gravity, dt);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cloth/body_hand.h"
 #include "cloth/contact/body_collision.h"
 #include "cloth/contact/solid.h"
 #include "cloth/description.h"
@@ -83,6 +84,13 @@ class Colliders {
   bool move_obstacle(std::size_t index, const Pose& target);
   /// The obstacle leaves its path and flies off. False if there is no such obstacle, or it is no body.
   bool throw_obstacle(std::size_t index, const Vec3& velocity, const Vec3& spin);
+  /// A hand takes hold of a body, which leaves its path and is moved by what it is pulled by, and falls.
+  /// False if there is no such obstacle, or it is no body.
+  bool grab(const BodyHand& hand);
+  /// Where the hand goes; false if there is no such hand.
+  bool move_grab(GrabId id, const Vec3& hand);
+  bool release(GrabId id);
+  const std::vector<BodyHand>& hands() const { return hands_; }
 
   /// Moves every ball from `time` to `time + dt`: along its path, to its target, or by `gravity` and its
   /// velocity; and every obstacle along its path, to its target, or as it flies.
@@ -143,6 +151,7 @@ class Colliders {
   std::vector<Obstacle> obstacles_;
   std::vector<Solid> solids_;
   std::vector<Target> targets_;
+  std::vector<BodyHand> hands_;
   std::vector<ColliderId> stopped_;
   BallId next_id_ = 1;
   double sleep_speed_ = 0;

@@ -55,6 +55,11 @@ void RigidBody::fling(const Vec3& velocity, const Vec3& spin, const Quaternion& 
   turning_ = axes * (inertia_ * (axes.transpose() * spin));
 }
 
+void RigidBody::strike(const Vec3& impulse, const Vec3& turning) {
+  velocity_ += impulse / mass_;
+  turning_ += turning;
+}
+
 /// Fixed-point iterations, each of which wins digits as long as the body turns by little in the step.
 Vec3 RigidBody::middle_spin(const Quaternion& orientation, double dt) const {
   constexpr int kIterations = 20;

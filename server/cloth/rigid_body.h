@@ -27,11 +27,15 @@ class RigidBody {
   int sharing() const { return sharing_; }                     ///< as Ball::sharing
   /// With the body as it is turned, rad/s, in the world.
   Vec3 spin(const Quaternion& orientation) const;
+  /// The same, 1/(kg m2).
+  Eigen::Matrix3d inverse_inertia(const Quaternion& orientation) const;
 
   /// It goes where it is told from now on; `fly` and the rest are not for it until it is thrown.
   void hold() { dynamic_ = false; }
   /// It flies off.
   void fling(const Vec3& velocity, const Vec3& spin, const Quaternion& orientation);
+  /// What it is given between two steps: of momentum, N s, and of angular momentum, N m s.
+  void strike(const Vec3& impulse, const Vec3& turning);
   /// A step of dt, s, by `gravity`, m/s2: the pose becomes that of the step's end, the solid its way.
   void fly(Pose& pose, Solid& solid, const Vec3& gravity, double dt);
   /// So many cloths touch it in the step: Colliders::share.
@@ -53,7 +57,6 @@ class RigidBody {
   void stop(Pose& pose, Solid& solid);
 
  private:
-  Eigen::Matrix3d inverse_inertia(const Quaternion& orientation) const;
   Vec3 middle_spin(const Quaternion& orientation, double dt) const;
 
   bool dynamic_;

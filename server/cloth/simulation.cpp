@@ -89,14 +89,26 @@ GrabId Simulation<Real>::grab(std::size_t cloth, const Vec2& at, const std::opti
 }
 
 template <class Real>
+std::optional<GrabId> Simulation<Real>::grab_obstacle(std::size_t index, const Vec3& point,
+                                                      const std::optional<Vec3>& hand, double max_force) {
+  if (index >= colliders_.obstacles().size()) return {};
+  const Pose& pose = colliders_.obstacles()[index].pose;
+  const Vec3 place = pose.position + pose.orientation * point;
+  if (!colliders_.grab({next_grab_, index, point, hand.value_or(place), max_force})) return {};
+  return next_grab_++;
+}
+
+template <class Real>
 bool Simulation<Real>::move_grab(GrabId id, const Vec3& hand) {
-  return std::any_of(cloths_.begin(), cloths_.end(),
+  return colliders_.move_grab(id, hand) ||
+         std::any_of(cloths_.begin(), cloths_.end(),
                      [&](Cloth<Real>& cloth) { return cloth.move_grab(id, hand); });
 }
 
 template <class Real>
 bool Simulation<Real>::release(GrabId id) {
-  return std::any_of(cloths_.begin(), cloths_.end(), [&](Cloth<Real>& cloth) { return cloth.release(id); });
+  return colliders_.release(id) ||
+         std::any_of(cloths_.begin(), cloths_.end(), [&](Cloth<Real>& cloth) { return cloth.release(id); });
 }
 
 template <class Real>

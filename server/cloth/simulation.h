@@ -87,6 +87,10 @@ class Simulation {
   /// A hand takes hold of a cloth at (u, v), where it is now unless the hand is elsewhere, and pulls with at
   /// most `max_force`, N.
   GrabId grab(std::size_t cloth, const Vec2& at, const std::optional<Vec3>& hand, double max_force);
+  /// The same of a body, by its place in Colliders::obstacles(), at `point` of its own axes from its centre;
+  /// nothing if there is no such obstacle, or it is no body.
+  std::optional<GrabId> grab_obstacle(std::size_t index, const Vec3& point, const std::optional<Vec3>& hand,
+                                      double max_force);
   bool move_grab(GrabId id, const Vec3& hand);
   bool release(GrabId id);
   void pin(std::size_t cloth, const Vec2& at) { cloths_[cloth].pin(at); }

@@ -21,10 +21,11 @@ namespace weft::host {
 /// The commands that are the scene's to carry out; the rest is answered by Connection.
 using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
-                 protocol::BallRemove, protocol::ObstacleMove, protocol::ObstacleThrow, protocol::ClothGrab,
-                 protocol::GrabMove, protocol::GrabRelease, protocol::ClothPin, protocol::ClothUnpin,
-                 protocol::EffectSet, protocol::WindSet, protocol::WindZoneSet, protocol::Quality,
-                 protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset, protocol::Step>;
+                 protocol::BallRemove, protocol::ObstacleMove, protocol::ObstacleThrow,
+                 protocol::ObstacleGrab, protocol::ClothGrab, protocol::GrabMove, protocol::GrabRelease,
+                 protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet, protocol::WindSet,
+                 protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume,
+                 protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -92,6 +93,7 @@ class LiveScene {
   Outcome carry_out(const protocol::BallRemove& remove, Seat& seat);
   Outcome carry_out(const protocol::ObstacleMove& move, Seat& seat);
   Outcome carry_out(const protocol::ObstacleThrow& thrown, Seat& seat);
+  Outcome carry_out(const protocol::ObstacleGrab& grab, Seat& seat);
   Outcome carry_out(const protocol::ClothGrab& grab, Seat& seat);
   Outcome carry_out(const protocol::GrabMove& move, Seat& seat);
   Outcome carry_out(const protocol::GrabRelease& release, Seat& seat);
@@ -108,6 +110,8 @@ class LiveScene {
   Outcome carry_out(const protocol::Step& step, Seat& seat);
 
   std::optional<protocol::Error> missing_cloth(std::uint32_t cloth) const;
+  /// The scene is held at so many points as it may be.
+  std::optional<protocol::Error> too_many_grabs() const;
   /// Which cloths the viewer sees, and Eq. 7 for each, from where it is; `steps`: 1 in one, else 0.
   void look(Seat& seat, int steps = 0);
   /// True for all cloths for which the scene makes no difference.

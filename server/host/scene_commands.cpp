@@ -27,6 +27,10 @@ Error no_such_obstacle(std::uint32_t obstacle, std::size_t obstacles) {
                      " obstacles, counted from 0");
 }
 
+Error no_mass(std::uint32_t obstacle) {
+  return refused("unavailable", "/obstacle", "/obstacle is " + std::to_string(obstacle) + "; it has no mass");
+}
+
 Error no_such_grab(GrabId id) {
   return refused("not_found", "/grab",
                  "/grab is " + std::to_string(id) + "; this viewer holds nothing by that id");
@@ -128,10 +132,29 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, S
   const std::size_t obstacles = simulation_.colliders().obstacles().size();
   if (thrown.obstacle >= obstacles) return no_such_obstacle(thrown.obstacle, obstacles);
   if (!simulation_.throw_obstacle(thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin))) {
-    return refused("unavailable", "/obstacle",
-                   "/obstacle is " + std::to_string(thrown.obstacle) + "; it has no mass");
+    return no_mass(thrown.obstacle);
   }
   return json::object();
+}
+
+std::optional<Error> LiveScene::too_many_grabs() const {
+  std::size_t held = simulation_.colliders().hands().size();
+  for (const Cloth<float>& cloth : simulation_.cloths()) held += cloth.grabs().size();
+  if (held < static_cast<std::size_t>(limits_.grabs)) return {};
+  return refused("limit", "",
+                 "the scene is held at " + std::to_string(limits_.grabs) + " points, the most allowed");
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleGrab& grab, Seat& seat) {
+  const std::size_t obstacles = simulation_.colliders().obstacles().size();
+  if (grab.obstacle >= obstacles) return no_such_obstacle(grab.obstacle, obstacles);
+  if (const auto too_many = too_many_grabs()) return *too_many;
+  std::optional<Vec3> hand;
+  if (grab.position) hand = to_vec3(*grab.position);
+  const auto id = simulation_.grab_obstacle(grab.obstacle, to_vec3(grab.point), hand, grab.max_force);
+  if (!id) return no_mass(grab.obstacle);
+  seat.grabs.push_back(*id);
+  return json{{"grab", *id}};
 }
 
 std::optional<Error> LiveScene::missing_cloth(std::uint32_t cloth) const {
@@ -144,13 +167,7 @@ std::optional<Error> LiveScene::missing_cloth(std::uint32_t cloth) const {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::ClothGrab& grab, Seat& seat) {
   if (const auto missing = missing_cloth(grab.cloth)) return *missing;
-  std::size_t held = 0;
-  for (const Cloth<float>& cloth : simulation_.cloths()) held += cloth.grabs().size();
-  if (held >= static_cast<std::size_t>(limits_.grabs)) {
-    return refused(
-        "limit", "",
-        "the scene's cloths are held at " + std::to_string(limits_.grabs) + " points, the most allowed");
-  }
+  if (const auto too_many = too_many_grabs()) return *too_many;
   std::optional<Vec3> hand;
   if (grab.position) hand = to_vec3(*grab.position);
   const GrabId id = simulation_.grab(grab.cloth, {grab.u, grab.v}, hand, grab.max_force);
@@ -222,6 +239,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   changed.direction = to_vec3(wind.direction);
   changed.speed = wind.speed;
   if (wind.gusts) changed.gusts.intensity = *wind.gusts;
+  if (wind.turbulence) changed.turbulence.intensity = *wind.turbulence;
   simulation_.set_wind(changed);
   tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
   return json::object();

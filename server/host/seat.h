@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/effects/grab.h"
+#include "cloth/grab_id.h"
 #include "cloth/level_policy.h"
 #include "cloth/relevance.h"
 #include "cloth/vec3.h"

@@ -92,7 +92,11 @@ test('wind by the sliders', async () => {
   await until(page, () => weft.stats.wind.gusts === 0.4 && weft.stats.wind.speed === 8);
   assert.equal(await page.textContent('#wind-gusts-value'), '40 %');
   await page.fill('#wind-gusts', '0');
-  await until(page, () => weft.stats.wind.gusts === undefined);
+  await page.fill('#wind-eddies', '0.6');
+  await until(page, () => weft.stats.wind.gusts === undefined && weft.stats.wind.turbulence === 0.6);
+  assert.equal(await page.textContent('#wind-eddies-value'), '60 %');
+  await page.fill('#wind-eddies', '0');
+  await until(page, () => weft.stats.wind.turbulence === undefined);
   await page.fill('#wind-speed', '0');
   await until(page, () => weft.stats.wind.speed === 0);
   assert.equal(await page.isVisible('#wind-arrow'), false);

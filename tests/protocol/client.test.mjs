@@ -114,7 +114,7 @@ test('the surface of a mesh is asked for beside the scene', async () => {
 });
 
 test('each method sends its operation', async () => {
-  const answers = { 'ball.add': { ball: 7 }, 'cloth.grab': { grab: 3 }, 'scene.list': { scenes: [{ name: 'flag' }] }, ping: { op: 'pong' } };
+  const answers = { 'ball.add': { ball: 7 }, 'cloth.grab': { grab: 3 }, 'obstacle.grab': { grab: 4 }, 'scene.list': { scenes: [{ name: 'flag' }] }, ping: { op: 'pong' } };
   const server = await serve({ answer: ({ op }) => answers[op] ?? {} });
   const client = await join(server, { window: 0 });
   await client.camera({ distance: 5 });
@@ -129,6 +129,8 @@ test('each method sends its operation', async () => {
   await client.throwObstacle(0, [0, 1, 0]);
   await client.throwObstacle(1, [0, 1, 0], [0, 2, 0]);
   assert.equal(await client.grab({ cloth: 0, u: 0.5, v: 1, maxForce: 20 }), 3);
+  assert.equal(await client.grabObstacle({ obstacle: 2 }), 4);
+  assert.equal(await client.grabObstacle({ obstacle: 1, point: [0, 0.1, 0], position: [0, 1, 0], maxForce: 20 }), 4);
   await client.moveGrab(3, [0, 1, 0]);
   await client.release(3);
   await client.pin(0, 0.5, 1);
@@ -136,6 +138,7 @@ test('each method sends its operation', async () => {
   await client.setEffect('gravity', false);
   await client.setWind([0, 0, -1], 3);
   await client.setWind([0, 0, -1], 3, { gusts: 0.25 });
+  await client.setWind([0, 0, -1], 3, { turbulence: 0.5 });
   await client.setWindZone(1, [0, 0, -2]);
   await client.setQuality({ maxError: 0.01 });
   await client.setQuality({ maxMs: 2 });
@@ -157,10 +160,12 @@ test('each method sends its operation', async () => {
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
     { op: 'obstacle.throw', obstacle: 0, velocity: [0, 1, 0] }, { op: 'obstacle.throw', obstacle: 1, velocity: [0, 1, 0], spin: [0, 2, 0] },
-    { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
+    { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'obstacle.grab', obstacle: 2 },
+    { op: 'obstacle.grab', obstacle: 1, point: [0, 0.1, 0], position: [0, 1, 0], max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
     { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
     { op: 'effect.set', effect: 'gravity', on: false },
-    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3, turbulence: 0.5 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
     { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);
   assert.deepEqual(server.received.map(({ id }) => id), sent.map((_, i) => i + 1), 'ids are counted');

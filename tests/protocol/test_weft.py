@@ -160,7 +160,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(asked, [f"/v1/scenes/{SCENE['name']}/meshes/{obstacle}" for obstacle in (1, 2)])
 
     async def test_each_method_sends_its_operation(self):
-        answers = {"ball.add": {"ball": 7}, "cloth.grab": {"grab": 3}, "scene.list": {"scenes": [{"name": "flag"}]}, "ping": {"op": "pong"}}
+        answers = {"ball.add": {"ball": 7}, "cloth.grab": {"grab": 3}, "obstacle.grab": {"grab": 4}, "scene.list": {"scenes": [{"name": "flag"}]}, "ping": {"op": "pong"}}
         async with Server(lambda message: answers.get(message["op"], {})) as server, await weft.connect(server.url, window=0) as scene:
             await scene.camera(distance=5)
             await scene.camera(eye=[0, 1, 2])
@@ -175,6 +175,8 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.throw_obstacle(0, [0, 1, 0])
             await scene.throw_obstacle(1, (0, 1, 0), spin=(0, 2, 0))
             self.assertEqual(await scene.grab(0, 0.5, 1, max_force=20), 3)
+            self.assertEqual(await scene.grab_obstacle(2), 4)
+            self.assertEqual(await scene.grab_obstacle(1, point=(0, 0.1, 0), position=(0, 1, 0), max_force=20), 4)
             await scene.move_grab(3, [0, 1, 0])
             await scene.release(3)
             await scene.pin(0, 0.5, 1)
@@ -182,6 +184,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.set_effect("gravity", False)
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_wind([0, 0, -1], 3, gusts=0.25)
+            await scene.set_wind([0, 0, -1], 3, turbulence=0.5)
             await scene.set_wind_zone(1, [0, 0, -2])
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
@@ -206,11 +209,13 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]},
             {"op": "obstacle.throw", "obstacle": 0, "velocity": [0, 1, 0]},
             {"op": "obstacle.throw", "obstacle": 1, "velocity": [0, 1, 0], "spin": [0, 2, 0]},
-            {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
+            {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "obstacle.grab", "obstacle": 2},
+            {"op": "obstacle.grab", "obstacle": 1, "point": [0, 0.1, 0], "position": [0, 1, 0], "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
             {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
             {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "effect.set", "effect": "gravity", "on": False},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},
+            {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "turbulence": 0.5},
             {"op": "wind.zone.set", "zone": 1, "velocity": [0, 0, -2]},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},

@@ -431,6 +431,15 @@ export class WeftClient {
     return this.send('obstacle.throw', { obstacle, velocity, spin });
   }
 
+  /**
+   * Takes hold of an obstacle that has a mass at a point: it follows the hand by at most a force, with `moveGrab` and `release`. Lets go when the connection closes.
+   * @param {{obstacle: number, point?: Vector, position?: Vector, maxForce?: number}} grab point: from the obstacle's place along its own axes, or its centre; position: the hand's, m, or where the point is; N
+   * @returns {Promise<number>} its id
+   */
+  async grabObstacle({ obstacle, point, position, maxForce }) {
+    return (await this.send('obstacle.grab', { obstacle, point, position, max_force: maxForce })).grab;
+  }
+
   /** What a mesh of the scene looks like. @param {number} obstacle its place in `scene` @returns {Promise<Surface>} */
   async surface(obstacle) {
     const place = new URL(`${encodeURIComponent(this.scene.name)}/meshes/${obstacle}`, this.#url.replace(/^ws/, 'http'));
@@ -478,10 +487,10 @@ export class WeftClient {
 
   /**
    * @param {Vector} direction any length but zero @param {number} speed m/s
-   * @param {{gusts?: number}} [change] how strong gusts are, 0 to 1: their root mean square over the speed; without it as they were
+   * @param {{gusts?: number, turbulence?: number}} [change] how strong gusts and eddies are, 0 to 1: their root mean square over the speed, of eddies in each component; without it as they were
    */
-  setWind(direction, speed, { gusts } = {}) {
-    return this.send('wind.set', { direction, speed, gusts });
+  setWind(direction, speed, { gusts, turbulence } = {}) {
+    return this.send('wind.set', { direction, speed, gusts, turbulence });
   }
 
   /** How the air moves in one of the wind's zones. @param {number} zone its place in the wind's `zones` @param {Vector} velocity m/s */

@@ -457,6 +457,13 @@ class Client:
         """An obstacle that has a mass, by its place in `scene`, flies off at velocity, m/s, and spin, rad/s; None: 0."""
         return await self.send("obstacle.throw", obstacle=obstacle, velocity=velocity, spin=spin)
 
+    async def grab_obstacle(self, obstacle: int, *, point=None, position=None, max_force: typing.Optional[float] = None) -> int:
+        """Takes hold of an obstacle that has a mass at a point of its own axes (m; None: its centre), which then follows the hand
+        (m; None: where the point is) by at most a force (N), with `move_grab` and `release`; returns the grab's id. It lets go when
+        the connection closes."""
+        ok = await self.send("obstacle.grab", obstacle=obstacle, point=point, position=position, max_force=max_force)
+        return ok["grab"]
+
     async def surface(self, obstacle: int) -> dict:
         """What a mesh of the scene looks like, by its place in `scene`: `vertices`, x, y, z of each in the mesh's own axes (m), and
         `triangles`, three vertices each, counterclockwise as seen from outside."""
@@ -494,10 +501,10 @@ class Client:
         """Takes one of the scene's effects away, or brings it back, for all viewers."""
         return await self.send("effect.set", effect=effect, on=on)
 
-    async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None) -> dict:
-        """Direction of any length but zero; speed in m/s; gusts from 0 to 1, their root mean square over the speed (None: as
-        they were)."""
-        return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts)
+    async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None, turbulence: typing.Optional[float] = None) -> dict:
+        """Direction of any length but zero; speed in m/s; gusts and turbulence from 0 to 1, their root mean square over the
+        speed, of turbulence in each component (None: as they were)."""
+        return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts, turbulence=turbulence)
 
     async def set_wind_zone(self, zone: int, velocity) -> dict:
         """How the air moves in one of the wind's zones, m/s; `zone` is its place in the wind's `zones`."""

@@ -1,12 +1,10 @@
 #pragma once
-#include <cstdint>
 #include <vector>
 
 #include "cloth/effects/effect.h"
+#include "cloth/grab_id.h"
 
 namespace weft {
-
-using GrabId = std::uint32_t;
 
 /// A hand on a cloth: it holds a patch around a point and pulls it to where it is.
 struct Grab {

@@ -27,6 +27,16 @@ TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
   EXPECT_FALSE(other.last("event", "wind").at("wind").contains("gusts"));
 }
 
+TEST_F(Commands, SoAreEddies) {
+  command(WindSet{{1, 0, 0}, 3.0, {}, 0.5});
+  EXPECT_EQ(other.last("event", "wind").at("wind"),
+            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"turbulence", 0.5}}));
+  command(WindSet{{0, 0, -1}, 5.0});
+  EXPECT_EQ(live.simulation().wind().turbulence.intensity, 0.5);
+  command(WindSet{{0, 0, -1}, 5.0, {}, 0.0});
+  EXPECT_FALSE(other.last("event", "wind").at("wind").contains("turbulence"));
+}
+
 scene::Scene with_zones() {
   scene::Scene scene = hung_cloth();
   WindZone box, sphere;

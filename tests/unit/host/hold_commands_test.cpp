@@ -64,6 +64,51 @@ TEST_F(ObstacleCommands, ThrowThoseThatHaveAMass) {
   EXPECT_EQ(command(ObstacleThrow{2, {}, {}}).at("code"), "not_found");
 }
 
+TEST_F(ObstacleCommands, HandsHoldThoseThatHaveAMass) {
+  const std::uint32_t grab = command(ObstacleGrab{1, {0.05, 0, 0}, {}, 200}).at("grab");
+  const BodyHand& hand = live.simulation().colliders().hands().at(0);
+  EXPECT_EQ(hand.max_force, 200);
+  EXPECT_EQ(hand.hand, Vec3(0.05, 5, 0));  // where the point is
+  EXPECT_EQ(command(GrabMove{grab, {1, 6, 0}}).at("op"), "ok");
+  steps(120);
+  // By the middle of a face it hangs 9.81 / 30^2 m below the hand, the box's centre half an edge lower.
+  EXPECT_NEAR(reader.frames.back().obstacles.at(0).position[1], 6 - 9.81 / 900 - 0.05, 1e-3);
+  live.apply(other.viewer, other_visit, {7, GrabMove{grab, {0, 0, 0}}});
+  drain();
+  EXPECT_EQ(other.reply(7).at("code"), "not_found");
+  EXPECT_EQ(command(GrabRelease{grab}).at("op"), "ok");
+  EXPECT_EQ(command(GrabRelease{grab}).at("code"), "not_found");
+  steps(60);
+  EXPECT_LT(reader.frames.back().obstacles.at(0).position[1], 6 - 9.81 / 2);  // it fell for a second
+  const json error = command(ObstacleGrab{0, {}, {}, 100});
+  EXPECT_EQ(error.at("code"), "unavailable");
+  EXPECT_EQ(error.at("path"), "/obstacle");
+  EXPECT_EQ(error.at("message"), "/obstacle is 0; it has no mass");
+  EXPECT_EQ(command(ObstacleGrab{2, {}, {}, 100}).at("message"),
+            "/obstacle is 2; the scene has 2 obstacles, counted from 0");
+}
+
+TEST_F(ObstacleCommands, WhoLeavesLetsGoOfThemAndAResetLetsAllGo) {
+  EXPECT_EQ(command(ObstacleGrab{1, {}, {}, 50}).at("grab"), 1);
+  EXPECT_EQ(command(ClothGrab{0, 0.5, 1.0, {}, 50}).at("grab"), 2);  // counted together
+  live.apply(other.viewer, other_visit, {7, ObstacleGrab{1, {}, {}, 50}});
+  EXPECT_EQ(live.simulation().colliders().hands().size(), 2u);
+  live.remove_viewer(other.viewer.get(), other_visit);
+  EXPECT_EQ(live.simulation().colliders().hands().size(), 1u);
+  command(Reset{});
+  EXPECT_TRUE(live.simulation().colliders().hands().empty());
+  EXPECT_EQ(command(GrabRelease{1}).at("code"), "not_found");
+}
+
+TEST_F(ObstacleCommands, The65thHandIsRefusedWhateverItHolds) {
+  for (int i = 0; i < 32; ++i) ASSERT_EQ(command(ObstacleGrab{1, {}, {}, 1}).at("op"), "ok");
+  for (int i = 0; i < 32; ++i) ASSERT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("op"), "ok");
+  const json error = command(ObstacleGrab{1, {}, {}, 1});
+  EXPECT_EQ(error.at("code"), "limit");
+  EXPECT_EQ(error.at("message"), "the scene is held at 64 points, the most allowed");
+  EXPECT_EQ(command(ClothGrab{0, 0.5, 0.5, {}, 1}).at("code"), "limit");
+}
+
 TEST_F(ObstacleCommands, OneThatLeavesStaysWhereItDid) {
   EXPECT_EQ(command(ObstacleMove{1, {0, 999.9, 0}, {}}).at("op"), "ok");
   steps(1);
