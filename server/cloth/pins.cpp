@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/solver/node_vector.h"
+
 namespace weft {
 namespace {
 
@@ -42,18 +44,6 @@ void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
   nodes.insert(nodes.end(), added.begin(), added.end());
 }
 
-template <class Real>
-Vec3 get(const VectorField<Real>& field, std::size_t i) {
-  return {double(field.x.row(0)[i]), double(field.y.row(0)[i]), double(field.z.row(0)[i])};
-}
-
-template <class Real>
-void set(VectorField<Real>& field, std::size_t i, const Vec3& value) {
-  field.x.row(0)[i] = static_cast<Real>(value.x());
-  field.y.row(0)[i] = static_cast<Real>(value.y());
-  field.z.row(0)[i] = static_cast<Real>(value.z());
-}
-
 }  // namespace
 
 template <class Real>
@@ -68,7 +58,7 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     if (seam != nullptr) add_sewn(*seam, nodes);
     for (const std::size_t node : nodes) {
       particles.inverse_mass.row(0)[node] = Real(0);
-      set(particles.velocity, node, Vec3::Zero());
+      set(kernels::components(particles.velocity), node, Vec3::Zero());
     }
     if (region.obstacle) {
       Fixed fixed;
@@ -79,47 +69,11 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     if (region.path.empty()) continue;
     Path path{region.path, region.loop, {}};
     const Vec3 offset = along_path(region.path, time, region.loop);
-    for (const std::size_t node : nodes) path.nodes.push_back({node, get(particles.position, node) - offset});
+    for (const std::size_t node : nodes)
+      path.nodes.push_back({node, weft::at<Real>(kernels::components(particles.position), node) - offset});
     end_of_motion_ = std::max(
         end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
     carried_.push_back(std::move(path));
-  }
-}
-
-template <class Real>
-bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time,
-                            double dt) {
-  begin_ = time;
-  step_ = dt;
-  bool move = !carried_.empty() && time < end_of_motion_;
-  for (Fixed& fixed : fixed_) {
-    const auto found = std::find_if(solids.begin(), solids.end(),
-                                    [&](const Solid& solid) { return solid.id == fixed.obstacle.id; });
-    if (found == solids.end()) continue;
-    fixed.obstacle = *found;
-    move = move || found->moves();
-    if (fixed.placed) continue;
-    const PlacedShape start = found->placed(0);
-    for (Carried& carried : fixed.nodes) {
-      carried.origin = start.rotation.transpose() * (get(particles.position, carried.node) - start.centre);
-    }
-    fixed.placed = true;
-  }
-  return move;
-}
-
-template <class Real>
-void Pins<Real>::carry(Particles<Real>& particles, double time) const {
-  for (const Path& path : carried_) {
-    const Vec3 offset = along_path(path.points, time, path.loops);
-    for (const Carried& carried : path.nodes) set(particles.position, carried.node, carried.origin + offset);
-  }
-  for (const Fixed& fixed : fixed_) {
-    if (!fixed.placed || !fixed.obstacle.moves()) continue;
-    const PlacedShape now = at(fixed, time);
-    for (const Carried& carried : fixed.nodes) {
-      set(particles.position, carried.node, now.centre + now.rotation * carried.origin);
-    }
   }
 }
 

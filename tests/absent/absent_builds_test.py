@@ -30,10 +30,15 @@ def scene(absent, present=None):
     balls = [{"type": "ball", "position": [0, 0, -0.15], "radius": 0.1}, {"type": "plane", "position": [0, -2, 0]}]
     if present == "bodies":
         balls[0]["motion"] = "dynamic"
+    if present == "mesh_colliders":
+        balls.append({"type": "mesh", "position": [0, 0, 0], "lathe": {"outline": [[0, -1], [0.2, -0.9], [0, -0.8]], "sides": 8}})
+    pins = [{"u": [0, 1], "v": [0, 0]}]
+    if present == "moving_pins":
+        pins[0]["path"] = [{"time": 0, "offset": [0, 0, 0]}, {"time": 1, "offset": [0.1, 0, 0]}]
     return {"title": "hung", "effects": [effect for effect in effects if effect["type"] != absent],
             "wind": {name: value for name, value in wind.items() if name not in gone},
             "colliders": [] if absent == "contact" else balls,
-            "cloths": [{"size": [1, 1], "pins": ["top"], "sewn": sewn, "levels": {"min": 5, "max": 5}}]}
+            "cloths": [{"size": [1, 1], "pins": pins, "sewn": sewn, "levels": {"min": 5, "max": 5}}]}
 
 
 def measure(program, absent, folder):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cloth/multiversion.h"
 
@@ -99,27 +100,41 @@ template <class Real>
   for (int c = 0; c <= count; ++c) target[c] += faces[c - 1] + faces[c];
 }
 
+/// target += what the faces around each node of a row give it, for `count` faces in the row `above` and in
+/// that below; each has a zero before and after. One loop: with six the force took 15 % more instructions.
+template <class Real>
+[[gnu::always_inline]] inline void add_to_row(Real* __restrict tx, Real* __restrict ty, Real* __restrict tz,
+                                              const Components<const Real>& above,
+                                              const Components<const Real>& below, int count) {
+  WEFT_INDEPENDENT_ITERATIONS
+  for (int c = 0; c <= count; ++c) {
+    tx[c] = (tx[c] + (above.x[c - 1] + above.x[c])) + (below.x[c - 1] + below.x[c]);
+    ty[c] = (ty[c] + (above.y[c - 1] + above.y[c])) + (below.y[c - 1] + below.y[c]);
+    tz[c] = (tz[c] + (above.z[c - 1] + above.z[c])) + (below.z[c - 1] + below.z[c]);
+  }
+}
+
 template <bool kAlong, class Real, class Air>
 [[gnu::always_inline]] inline void add_force(const Grid& grid, const Components<const Real>& p,
                                              const Components<const Real>& v, const Air& air,
                                              const Plate<Real>& plate, Real most_flow,
                                              const Components<Real>& force) {
-  alignas(64) Real work[3][kRowAlign + kBlock + kRowAlign] = {};
-  Real* const fx = work[0] + kRowAlign;
-  Real* const fy = work[1] + kRowAlign;
-  Real* const fz = work[2] + kRowAlign;
+  alignas(64) Real work[2][3][kRowAlign + kBlock + kRowAlign];
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int begin = 0; begin + 1 < grid.cols; begin += kBlock) {
     const int count = std::min(kBlock, grid.cols - 1 - begin);
-    fx[count] = fy[count] = fz[count] = Real(0);
-    for (int r = 0; r + 1 < grid.rows; ++r) {
+    std::fill_n(work[0][0], sizeof work / sizeof(Real), Real(0));
+    Components<Real> above{work[0][0] + kRowAlign, work[0][1] + kRowAlign, work[0][2] + kRowAlign};
+    Components<Real> below{work[1][0] + kRowAlign, work[1][1] + kRowAlign, work[1][2] + kRowAlign};
+    for (int r = 0; r < grid.rows; ++r) {
       const std::size_t first = grid.index(r, begin);
-      force_block<kAlong>(p, v, first, stride, count, air, plate, most_flow, fx, fy, fz);
-      for (const std::size_t row : {first, first + stride}) {
-        add_to_corners(force.x + row, fx, count);
-        add_to_corners(force.y + row, fy, count);
-        add_to_corners(force.z + row, fz, count);
+      if (r + 1 < grid.rows) {
+        force_block<kAlong>(p, v, first, stride, count, air, plate, most_flow, below.x, below.y, below.z);
+      } else {
+        for (Real* row : {below.x, below.y, below.z}) std::fill_n(row, count, Real(0));
       }
+      add_to_row<Real>(force.x + first, force.y + first, force.z + first, above, below, count);
+      std::swap(above, below);
     }
   }
 }

@@ -10,6 +10,14 @@ Vec3 at(const kernels::Components<const Real>& field, std::size_t node) {
   return {double(field.x[node]), double(field.y[node]), double(field.z[node])};
 }
 
+/// field[node] = value.
+template <class Real>
+void set(const kernels::Components<Real>& field, std::size_t node, const Vec3& value) {
+  field.x[node] = static_cast<Real>(value.x());
+  field.y[node] = static_cast<Real>(value.y());
+  field.z[node] = static_cast<Real>(value.z());
+}
+
 /// field[node] += value.
 template <class Real>
 void add(const kernels::Components<Real>& field, std::size_t node, const Vec3& value) {

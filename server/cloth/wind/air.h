@@ -23,6 +23,7 @@ class Air {
   bool steady() const { return !gusts_ && !eddies_; }
   /// Has the same velocity everywhere.
   bool uniform() const { return !eddies_ && wind_.zones.empty(); }
+  bool turbulent() const { return eddies_.has_value(); }
   /// Null if there are none.
   const GustSeries* gusts() const { return gusts_ ? &*gusts_ : nullptr; }
 

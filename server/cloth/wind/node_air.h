@@ -20,11 +20,12 @@ class NodeAir {
 
  private:
   void add_zones(const Air& air);
+  /// Of turbulent air alone.
   void add_eddies(const Air& air, const Vec2& spacing, double time);
 
   VectorField<float> points_, velocity_;  ///< at all nodes
   VectorField<float> few_points_,
-      few_velocity_;  ///< where eddies are evaluated, if not at all nodes; one row
+      few_velocity_;  ///< where eddies are evaluated, if not at all nodes; one row. Empty in calm air
 };
 
 }  // namespace weft
