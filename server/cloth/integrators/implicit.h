@@ -59,10 +59,13 @@ class Implicit final : public Integrator<Real> {
     std::vector<OneSidedSpring> one_sided;  ///< those of a change
     double h = 0;                           ///< s, of the last step's substeps
     std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
-    MotionScale<Real> motion;               ///< as the substep begins
-    SolveTarget target;                     ///< of the substep's solves
-    bool smooth = true;                     ///< the substep was not taken back
-    bool sound = true;                      ///< a move was found in every substep of the step
+    /// Share of their stiffness that softened springs keep. They are allowed that share of the error: they
+    /// would stretch by as much more than the cloth's with the same energy.
+    double kept_stiffness = 1;
+    MotionScale<Real> motion;  ///< as the substep begins
+    SolveTarget target;        ///< of the substep's solves
+    bool smooth = true;        ///< the substep was not taken back
+    bool sound = true;         ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
