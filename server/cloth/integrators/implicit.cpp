@@ -15,10 +15,6 @@ constexpr int kSpareIterations = 8, kMoreIterations = 3;
 /// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
 /// not. Near rest none may be off by more than a solve.
 constexpr double kRough = 0.2;
-/// Where layers touch, contacts that pull are let go from this share on: what they pulled by is energy from
-/// nowhere, and where layers and floor press each other it adds up. A square that fell in a heap rose by
-/// 0.031 J in a step by the share above, by 0.0002 J by this one.
-constexpr double kPulled = 1e-3;
 /// Nor is one off by more than so many nodes' share of that energy in a single spring: a fold that runs
 /// through a stiff sheet would stretch the few springs in it far beyond their strain. A curtain, a flag or a
 /// drape stays below 2; a cushion blown up at one blow does not, and takes a tenth more iterations meanwhile.
@@ -281,9 +277,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool rough = changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * motion;
     const bool fine = left > 1 || rough || s.motion.fine();
     const double allowed = fine ? solved.target : std::max(solved.target, kRough * motion);
-    const double by_pulling = forces.layers == nullptr ? allowed : s.motion.energy() * kPulled;
-    const bool done =
-        report.brought_in <= 0 && error <= allowed && pulling <= std::max(solved.target, by_pulling);
+    const bool done = report.brought_in <= 0 && error <= allowed;
     const bool last = left <= 1 - kSpareIterations;
     if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;
     if (forces.layers == nullptr || !hold_meeting(particles, *forces.layers)) break;

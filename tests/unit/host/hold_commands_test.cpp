@@ -12,6 +12,7 @@ scene::Scene with_a_box() {
   box.shape = BoxDescription{.size = {0.1, 0.1, 0.1}};
   box.position = {0, 5, 0};
   scene.simulation.obstacles = {box, box};
+  scene.simulation.obstacles[0].position = {0, 5, -3};  // out of the other's way
   scene.simulation.obstacles[1].body = BodyDescription{.mass = 2, .dynamic = false};
   return scene;
 }
