@@ -77,7 +77,7 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
   }
 }
 
-template class Pins<float>;
-template class Pins<double>;
+template Pins<float>::Pins(const std::vector<PinRegion>&, double, Particles<float>&, const Seam<float>*);
+template Pins<double>::Pins(const std::vector<PinRegion>&, double, Particles<double>&, const Seam<double>*);
 
 }  // namespace weft

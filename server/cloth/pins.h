@@ -69,7 +69,4 @@ class Pins {
   double begin_ = 0, step_ = 1;  ///< of the step, s
 };
 
-extern template class Pins<float>;
-extern template class Pins<double>;
-
 }  // namespace weft
