@@ -50,18 +50,6 @@ Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
   return obstacle;
 }
 
-/// Whatever moved it has come to its end.
-void stop(Solid& solid) {
-  solid.start = solid.position;
-  solid.velocity = solid.turn = solid.spin = Vec3::Zero();
-}
-
-/// No force moves it.
-void fix(Solid& solid) {
-  solid.inverse_mass = 0;
-  solid.inverse_inertia.setZero();
-}
-
 /// It goes from pose to pose in a step of dt, s.
 void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
   Solid& solid = obstacle.solid;
@@ -79,27 +67,15 @@ void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
 
 /// Along its path or to its target, in a step from `time` on.
 void advance(Obstacle& obstacle, double time, double dt) {
-  fix(obstacle.solid);
+  obstacle.solid.stand();
   if (obstacle.target) {
     go(obstacle, obstacle.pose, *obstacle.target, dt);
     obstacle.target.reset();
   } else if (!obstacle.path.empty()) {
     const auto pose = [&](double when) { return along_path(obstacle.path, when, obstacle.loops); };
     go(obstacle, pose(time), pose(time + dt), dt);
-  } else {
-    stop(obstacle.solid);
   }
 }
-
-/// Around its way in the step, which it may leave by `more`, m.
-Eigen::AlignedBox3d box_of(const Solid& solid, double more) {
-  Eigen::AlignedBox3d box = solid.placed(1).bounds();
-  const double margin = kRestMargin * box.sizes().maxCoeff() + more;
-  box.extend(solid.placed(0).bounds());
-  return {box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin)};
-}
-
-bool flies(const Ball& ball) { return ball.motion == BallDescription::Motion::dynamic; }
 
 template <class Balls>
 auto find_ball(Balls& balls, BallId id) {
@@ -237,7 +213,7 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity, const st
       ball.velocity = (ball.position - ball.start) / dt;
       continue;
     }
-    if (flies(ball)) continue;
+    if (ball.flies()) continue;
     const auto target =
         std::find_if(targets_.begin(), targets_.end(), [&](const Target& t) { return t.ball == ball.id; });
     if (target == targets_.end()) {
@@ -272,82 +248,6 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity, const st
     stop_bad_body(obstacle);
   }
   gather_solids();
-}
-
-bool Colliders::may_rest() const {
-  const auto quiet = [](const auto& body) { return body.rest.quiet(); };
-  return std::any_of(balls_.begin(), balls_.end(), quiet) ||
-         std::any_of(obstacles_.begin(), obstacles_.end(), quiet);
-}
-
-void Colliders::let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths) {
-  std::vector<Sleeper> sleepers;
-  std::vector<BodyRest*> rests;  // nullptr: no force moves it
-  bool all_sleep =
-      std::all_of(cloths.begin(), cloths.end(), [](const Sleeper& cloth) { return cloth.quiet; });
-  const auto add = [&](const Solid& solid, const Vec3& velocity, BodyRest* rest) {
-    const bool quiet = rest != nullptr && rest->quiet();
-    all_sleep = all_sleep && quiet && rest->asleep();
-    sleepers.push_back({box_of(solid, quiet ? 0 : dt * (velocity.norm() + dt * gravity.norm())), quiet});
-    rests.push_back(rest);
-  };
-  // What stands still joins nothing and wakes nobody.
-  for (Ball& ball : balls_) {
-    const Solid solid = ball.solid();
-    if (flies(ball) || solid.moves() || solid.just_put) {
-      add(solid, solid.velocity, flies(ball) ? &ball.rest : nullptr);
-    }
-  }
-  for (Obstacle& obstacle : obstacles_) {
-    if (obstacle.flies()) add(obstacle.solid, obstacle.body->velocity(), &obstacle.rest);
-    if (!obstacle.flies() && obstacle.solid.moves()) add(obstacle.solid, {0, 0, 0}, nullptr);
-  }
-  if (all_sleep) return;  // and nothing comes
-
-  sleepers.insert(sleepers.end(), cloths.begin(), cloths.end());
-  const std::vector<bool> at_rest = islands_at_rest(sleepers);
-  for (std::size_t i = 0; i < rests.size(); ++i) {
-    if (rests[i] == nullptr) continue;
-    if (at_rest[i]) {
-      rests[i]->sleep();
-    } else if (rests[i]->asleep()) {
-      rests[i]->wake();
-    }
-  }
-  for (Ball& ball : balls_) {
-    if (ball.rest.asleep()) ball.velocity = ball.spin = Vec3::Zero();
-  }
-  for (Obstacle& obstacle : obstacles_) {
-    if (!obstacle.rest.asleep()) continue;
-    obstacle.body->rest();
-    fix(obstacle.solid);
-    stop(obstacle.solid);
-  }
-}
-
-void Colliders::wake() {
-  for (Ball& ball : balls_) ball.rest.wake();
-  for (Obstacle& obstacle : obstacles_) obstacle.rest.wake();
-}
-
-void Colliders::wake_near(const Solid& solid) {
-  const Eigen::AlignedBox3d box = box_of(solid, 0);
-  for (Ball& ball : balls_) {
-    if (box.intersects(box_of(ball.solid(), 0))) ball.rest.wake();
-  }
-  for (Obstacle& obstacle : obstacles_) {
-    if (box.intersects(box_of(obstacle.solid, 0))) obstacle.rest.wake();
-  }
-}
-
-void Colliders::watch(double dt) {
-  const double distance = sleep_speed_ * kQuietSteps * dt;
-  for (Ball& ball : balls_) {
-    if (ball.awake()) ball.rest.stepped({ball.position, Quaternion::Identity()}, 0, distance);
-  }
-  for (Obstacle& obstacle : obstacles_) {
-    if (obstacle.awake()) obstacle.rest.stepped(obstacle.pose, outer_radius(obstacle.solid.shape), distance);
-  }
 }
 
 void Colliders::share(ColliderId id, int cloths) {

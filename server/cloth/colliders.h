@@ -35,8 +35,9 @@ struct Ball {
   bool loops = false;  ///< the path
   BodyRest rest;       ///< if dynamic
 
-  /// Dynamic, and flies.
-  bool awake() const { return motion == BallDescription::Motion::dynamic && !rest.asleep(); }
+  /// Dynamic, asleep or not.
+  bool flies() const { return motion == BallDescription::Motion::dynamic; }
+  bool awake() const { return flies() && !rest.asleep(); }
   Solid solid() const;
 };
 

@@ -44,6 +44,13 @@ struct Solid {
   /// From `fraction` of a step of `dt` seconds on it has this velocity and this spin; unless they are not
   /// finite, as they are in a step that is going to be taken back.
   void go_on(const Vec3& with, const Vec3& spinning, double fraction, double dt);
+  /// Whatever moved it has come to its end: it stays where it is, and no force moves it.
+  void stand() {
+    start = position;
+    velocity = turn = spin = Vec3::Zero();
+    inverse_mass = 0;
+    inverse_inertia.setZero();
+  }
   /// Centre at `fraction` (0..1) of the step.
   Vec3 at(double fraction) const { return start + fraction * (position - start); }
   PlacedShape placed(double fraction) const {
