@@ -2,10 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/kernels/implicit_kernels.h"
 
 namespace weft {
+
+void ErrorEstimate::add(double progress) {
+  found_[2] = found_[1];
+  found_[1] = found_[0];
+  found_[0] = progress;
+  ++count_;
+}
+
+double ErrorEstimate::squared() const {
+  if (count_ < 2) return found_[0];
+  const double last = found_[0] / found_[1];
+  const double fall = count_ < 3 ? last : std::max(last, found_[1] / found_[2]);
+  if (fall >= 1) return std::numeric_limits<double>::infinity();
+  return found_[0] * std::max(1.0, fall / (1 - fall));
+}
 
 template <class Real>
 LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kernels::Components<const Real> b,
@@ -24,6 +40,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   });
   double rz = system.precondition(r, p);
   report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
+  ErrorEstimate error;
   while (rz > 0 && report.iterations < max_iterations) {
     const double curvature = system.multiply(p, q);
     if (!(curvature > 0)) break;
@@ -34,7 +51,8 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     });
     ++report.iterations;
     report.decrease += step * rz / 2;
-    if (step * rz <= report.target) {
+    error.add(step * rz);
+    if (error.squared() <= report.target) {
       report.converged = true;
       break;
     }
