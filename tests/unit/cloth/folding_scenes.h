@@ -100,6 +100,17 @@ inline SimulationDescription caught(int level, const IntegratorDescription& step
   return scene;
 }
 
+/// Two sheets, 1 cm above each other, that fall flat onto a floor half a metre below.
+inline SimulationDescription fall_together(int level, const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({1, 1}, level, stepping);
+  scene.cloths[0].orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  scene.cloths[0].position = {0, 0.5, 0};
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[1].position.y() += 0.01;
+  scene.obstacles = {floor_at(0)};
+  return scene;
+}
+
 /// A small cloth on a large one that is held everywhere, on a slope that falls along +x.
 inline SimulationDescription on_a_slope(double degrees, double friction,
                                         const IntegratorDescription& stepping) {

@@ -202,6 +202,25 @@ TEST_P(SelfContact, ClappingBringsInNoEnergy) {
   EXPECT_EQ(intersections(simulation), 0);
 }
 
+// Inelastic: what the floor stops it does not throw up. The lower one is stopped in one step, which the other
+// one must not take for how it goes on. No node comes higher than a tenth of the fall (the layers lie within
+// their thickness, 5 mm, of the floor).
+TEST_P(SelfContact, SheetLiesOnOneThatTheFloorStops) {
+  Simulation<float> simulation(fall_together(4, GetParam().description));
+  double highest = 0;
+  for (int step = 0; step < 120; ++step) {
+    simulation.step();
+    if (step < 30) continue;  // the fall takes 0.32 s
+    for (const Cloth<float>& cloth : simulation.cloths()) {
+      test::each_node(cloth.particles().grid(), [&](int r, int c) {
+        highest = std::max(highest, cloth.particles().position_at(r, c).y());
+      });
+    }
+  }
+  EXPECT_LT(highest, 0.05);
+  EXPECT_EQ(intersections(simulation), 0);
+}
+
 // T14: rests where tan(angle) < friction, and else slides down with g (sin - friction cos).
 TEST_P(SelfContact, ClothRubsOnCloth) {
   const auto after_half_a_second = [](Simulation<float>& simulation) {
