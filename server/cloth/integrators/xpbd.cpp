@@ -11,6 +11,14 @@
 namespace weft {
 namespace {
 
+/// As long as the plate lets it be (xpbd.h), s.
+template <class Real>
+double damping_time(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
+  const double time = forces.springs->damping_time();
+  if (time <= h || forces.plate == nullptr) return time;
+  return forces.plate->max_squared_frequency(particles.mass) * h * h > 4 ? h : time;
+}
+
 /// From the velocities before the substep, which the accelerations hold, to the mean over the substep.
 template <class Real>
 void make_acceleration(Particles<Real>& particles, double h) {
@@ -83,12 +91,13 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& f
     multiplier_.clear();
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
-  prepare_springs(*forces.springs, grid, h);
+  prepare_springs(*forces.springs, grid, damping_time(particles, forces, h), h);
   if (forces.plate != nullptr) prepare_plate(*forces.plate, h);
 }
 
 template <class Real>
-void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid, double h) {
+void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time,
+                                 double h) {
   const std::vector<SpringFamily>& families = springs.families();
   const std::size_t lanes = layout_.stride;
   const int rows = springs.torn() ? grid.rows : 1;
@@ -112,7 +121,7 @@ void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid,
     }
     springs_.push_back({family->rows, family->cols, static_cast<Real>(family->rest_length),
                         static_cast<Real>(family->border_share), stiffness,
-                        static_cast<Real>(springs.damping_time() / h)});
+                        static_cast<Real>(damping_time / h)});
     if (!multiplier_.empty()) {
       springs_.back().multiplier = multiplier_.data() + (springs_.size() - 1) * sheet_lanes;
     }

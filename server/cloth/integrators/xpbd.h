@@ -23,6 +23,10 @@ int substeps(const XpbdDescription& description, double dt);
 /// spring's length within a substep can bring in energy there: measured at level 6 with steps of 0.2 s, not
 /// with 1/15 s.
 ///
+/// Where a plate's stiffest modes turn within a substep (w h > 2) the springs' damping time is at most the
+/// substep: the plate's projection, made without regard to the springs', leaves them a rate of length in
+/// every substep that a longer one answers with ever larger multipliers (a flat sheet of 8 cm had 1e7 J).
+///
 /// A sheet in violent motion has up to 4 times the substeps (substep_refinement.h).
 ///
 /// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
@@ -47,7 +51,7 @@ class Xpbd final : public Integrator<Real> {
  private:
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
-  void prepare_springs(const Springs<Real>& springs, const Grid& grid, double h);
+  void prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time, double h);
   void prepare_plate(const Plate<Real>& plate, double h);
   /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
   void take_back_pins(const Forces<Real>& forces, double share, double h);
