@@ -238,22 +238,28 @@ const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, dou
   for (Sheet& sheet : sheets_) sheet.tree.refit(nodes.start.data() + sheet.first, end_.data() + sheet.first);
 
   pairs_.clear();
+  for (Sheet& sheet : sheets_) sheet.found.assign(sheet.tree.cells(), 0);
+  std::uint16_t* of_cell = nullptr;
   const auto add = [&](FeaturePair pair) {
+    if (*of_cell == kMostOfCell || pairs_.size() == kMost) return;
     const auto tangled = [&](std::uint32_t n) { return nodes.tangled[n] != 0; };
     if (std::any_of(pair.node.begin(), pair.node.end(), tangled)) return;
     const FourPoints start = points_of(pair, nodes.start);
     FourPoints move = points_of(pair, end_);
     for (std::size_t i = 0; i < 4; ++i) move[i] -= start[i];
     pair.distance = nearness(pair.kind, start).apart.norm();
-    if (pair.distance <= margin + reach(pair.kind, move)) pairs_.push_back(pair);
+    if (pair.distance > margin + reach(pair.kind, move)) return;
+    pairs_.push_back(pair);
+    ++*of_cell;
   };
-  for_each_sheets(margin, [&](const Sheet& one, const Sheet& other) {
+  for_each_sheets(margin, [&](Sheet& one, const Sheet& other) {
     Cell last{-1, -1};
     CellFeatures a;
     for (const auto& [first, second] : cells_) {
       if (first.row != last.row || first.col != last.col) {
         a = features_of(one.tree.grid(), one.first, one.left, first, nodes.start, end_);
         last = first;
+        of_cell = &one.found[cell_index(one.tree.grid(), first)];
       }
       const CellFeatures b =
           features_of(other.tree.grid(), other.first, other.left, second, nodes.start, end_);

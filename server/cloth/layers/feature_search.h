@@ -17,8 +17,14 @@ struct Crossing {
 /// bottom right node. What shares a node is no pair. Of a torn sheet what is drawn has features: whole cells,
 /// their edges and nodes; where it is torn it has a border. The order of the pairs follows from the grids
 /// alone.
+///
+/// Cloth can be packed so densely that everything is near everything: of a cell no more than kMostOfCell
+/// pairs are found, and kMost in all (without that 33 x 33 nodes in a point took gigabytes). What is beyond
+/// is not felt.
 class FeatureSearch {
  public:
+  static constexpr std::size_t kMostOfCell = 1024, kMost = std::size_t{1} << 22;
+
   /// Cloths of these grids, whole.
   void set_grids(const std::vector<Grid>& grids);
   /// What is cut of a cloth, counted from 0, at its grid.
@@ -44,7 +50,8 @@ class FeatureSearch {
     Sheet(const Grid& grid, std::uint32_t first_node) : tree(grid), first(first_node) {}
     PatchTree tree;
     std::uint32_t first;
-    std::vector<std::uint16_t> left;  ///< of each cell's own features, as bits; empty while it is whole
+    std::vector<std::uint16_t> left;   ///< of each cell's own features, as bits; empty while it is whole
+    std::vector<std::uint16_t> found;  ///< pairs of each cell
   };
   /// Of a cell above or before another one.
   static bool has_triangles(const Sheet& sheet, int row, int col);

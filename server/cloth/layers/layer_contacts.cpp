@@ -19,6 +19,8 @@ constexpr float kSoft = 50, kStiff = 5000;
 /// eight times its work put in by the net, and with them a fifteenth.
 constexpr int kMostRounds = 4;
 constexpr double kPairsInSight = 1.5, kMeetingPart = 0.4;
+/// Pairs that a node, or an edge that begins at it, is held in, a round: beyond it is held already.
+constexpr std::uint8_t kMostOfNode = 128;
 /// By how much it changes in a step, and the parts of the gap above and below which it does.
 constexpr float kStiffer = 4, kSofter = 0.7F;
 constexpr double kKept = 0.8, kHardlyKept = 0.4;
@@ -229,6 +231,7 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
   const auto nodes_of = [](const Constraint& c) { return std::pair(c.coupling.node, c.edges); };
   bool any = false;
   for (const FeaturePair& features : search_.find(own_, kPairsInSight * parameters_.net_gap)) {
+    if (met_[features.node[0]] == kMostOfNode) continue;
     const std::optional<LayerPair> pair = meeting(features);
     if (!pair) continue;
     Constraint c = constraint(*pair);
@@ -246,7 +249,8 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
       c.stiffness = before.stiffness;
       before = c;
     }
-    for (const std::size_t node : c.coupling.node) met_[node] = 1;
+    for (const std::size_t node : c.coupling.node) met_[node] = std::max<std::uint8_t>(met_[node], 1);
+    ++met_[features.node[0]];
     any = true;
   }
   for (std::size_t i = 0; i < met_.size(); ++i) {

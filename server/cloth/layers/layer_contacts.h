@@ -149,7 +149,7 @@ class LayerContacts {
   std::vector<Constraint> constraints_;
   std::vector<std::pair<Key, double>> forces_;  ///< of the last substep, N, sorted
   std::vector<float> stiffness_;                ///< at each node, as a multiple of the inertia
-  std::vector<char> met_;                       ///< nodes, in a round
+  std::vector<std::uint8_t> met_;               ///< by each node, in a round
   std::vector<char> strained_;  ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
   std::vector<std::size_t> struck_;
   std::vector<Vec3> given_;

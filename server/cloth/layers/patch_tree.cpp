@@ -119,7 +119,7 @@ void PatchTree::find_own_pairs(double margin, std::vector<std::array<Cell, 2>>& 
 
 void PatchTree::own(std::size_t level, Cell patch, double margin,
                     std::vector<std::array<Cell, 2>>& pairs) const {
-  if (one_to_one(levels_[level].at(patch))) return;
+  if (pairs.size() == kMostPairs || one_to_one(levels_[level].at(patch))) return;
   if (level == 0) {
     pairs.push_back({patch, patch});
     return;
@@ -134,6 +134,7 @@ void PatchTree::own(std::size_t level, Cell patch, double margin,
 
 void PatchTree::pair(std::size_t level, Cell a, Cell b, double margin,
                      std::vector<std::array<Cell, 2>>& pairs) const {
+  if (pairs.size() == kMostPairs) return;
   if (!levels_[level].at(a).place.near(levels_[level].at(b).place, margin) || one_to_one(level, a, b)) return;
   if (level == 0) {
     pairs.push_back({a, b});
@@ -157,6 +158,7 @@ void PatchTree::find_pairs(const PatchTree& other, double margin,
 
 void PatchTree::pair(std::size_t level, Cell a, const PatchTree& other, std::size_t other_level, Cell b,
                      double margin, std::vector<std::array<Cell, 2>>& pairs) const {
+  if (pairs.size() == kMostPairs) return;
   if (!levels_[level].at(a).place.near(other.levels_[other_level].at(b).place, margin)) return;
   if (level == 0 && other_level == 0) {
     pairs.push_back({a, b});

@@ -49,9 +49,13 @@ struct Cell {
 /// 30 degrees apart, so that points more than a cell from each other are at least half a cell apart.
 class PatchTree {
  public:
+  /// No more pairs of cells are found than this.
+  static constexpr std::size_t kMostPairs = std::size_t{1} << 22;
+
   explicit PatchTree(const Grid& grid);
 
   const Grid& grid() const { return grid_; }
+  std::size_t cells() const { return levels_.front().patches.size(); }
   /// Cells, each as row * (columns of cells) + column, across which nothing is one-to-one: torn ones.
   void set_torn(std::vector<std::uint32_t> cells) { torn_ = std::move(cells); }
   /// The nodes' ways, straight from `start` to `end`; both as many as grid.size().
@@ -60,7 +64,7 @@ class PatchTree {
   const Bounds& bounds() const { return bounds_; }
 
   /// Adds the pairs of cells of this sheet whose boxes come as near as `margin`; a cell that may meet itself
-  /// with itself.
+  /// with itself. Up to kMostPairs.
   void find_own_pairs(double margin, std::vector<std::array<Cell, 2>>& pairs) const;
   /// Those of a cell of this and one of another sheet.
   void find_pairs(const PatchTree& other, double margin, std::vector<std::array<Cell, 2>>& pairs) const;
