@@ -329,7 +329,8 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   context.node_air = node_air(air, time, dt);
   Forces<Real> all = forces(context);
   if (pins_.moving()) all.pins = &pins_;
-  if (layers_ != nullptr && !layers_->empty()) all.layers = layers_;
+  all.layered = layers_ != nullptr;
+  if (all.layered && !layers_->empty()) all.layers = layers_;
   return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 

@@ -15,6 +15,13 @@ constexpr int kSpareIterations = 8, kMoreIterations = 3;
 /// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
 /// not. Near rest none may be off by more than a solve.
 constexpr double kRough = 0.2;
+/// Where a sheet that meets itself lies on something: what a linearisation misses there heaps fold up with. A
+/// square that falls on its edge rose by up to 0.03 J of the 0.54 that it has, in eight falls at two levels.
+constexpr double kRoughHeap = 0.02;
+/// Further rounds in which a heap's nodes that the last iteration has put into a solid are held. Without,
+/// what puts them out of it brings in up to 0.006 J there. (A sheet alone shot off a fast ball at 11 m/s with
+/// them.)
+constexpr int kHeapRounds = 4;
 /// Nor is one off by more than so many nodes' share of that energy in a single spring: a fold that runs
 /// through a stiff sheet would stretch the few springs in it far beyond their strain. A curtain, a flag or a
 /// drape stays below 2; a cushion blown up at one blow does not, and takes a tenth more iterations meanwhile.
@@ -248,6 +255,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
   State& s = *state_;
   const std::size_t count = particles.grid().size();
   NewtonReport report;
+  const bool heap = forces.layered && !s.contacts.empty();
+  int heap_rounds = 0;
   for (int left = parameters_.newton_iterations; left > -kSpareIterations; --left) {
     assemble(particles, forces);
     const LinearSolveReport solved =
@@ -276,11 +285,16 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const double motion = s.kept_stiffness * s.motion.energy();
     const bool rough = changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * motion;
     const bool fine = left > 1 || rough || s.motion.fine();
-    const double allowed = fine ? solved.target : std::max(solved.target, kRough * motion);
+    const double allowed =
+        fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
     const bool done = report.brought_in <= 0 && error <= allowed;
     const bool last = left <= 1 - kSpareIterations;
     if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;
-    if (forces.layers == nullptr || !hold_meeting(particles, *forces.layers)) break;
+    if (!forces.layered) break;
+    const bool meet = forces.layers != nullptr && hold_meeting(particles, *forces.layers);
+    const bool enter =
+        heap && heap_rounds++ < kHeapRounds && hold_inside(particles, *forces.springs, allowed);
+    if (!meet && !enter) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }
   return report;

@@ -21,6 +21,7 @@ struct Forces {
   const Pins<Real>* pins = nullptr;       ///< if any of them moves
   const Plate<Real>* plate = nullptr;     ///< if the scene bends plates
   LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
+  bool layered = false;                   ///< some may, in the scene
   const Seam<Real>* seam = nullptr;       ///< of a sewn cloth
   Gas<Real>* gas = nullptr;               ///< if it is shut in it
 

@@ -129,15 +129,19 @@ TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
 
 // Nothing puts in energy: gravity has a potential, the floor stands still, folds and floor only take some. So
 // it never rises, but for what the method brings in without folds: they add none, to a hundredth of the fall.
-// (0.054 J were seen with XPBD, with folds and without, and 1.65 J where only the net held them.)
+// (0.054 J were seen with XPBD, with folds and without, and 1.65 J where only the net held them.) How it
+// folds hangs on the last digits: falls that begin a little higher fold otherwise.
 TEST_P(SelfContact, FoldsOfADroppedSquareBringInNoEnergy) {
-  SimulationDescription scene = dropped_on_edge(5, GetParam().description);
-  Simulation<float> simulation(scene);
-  const Balance folds = balance(simulation, 120);
-  scene.effects.pop_back();
-  Simulation<float> without(scene);
-  EXPECT_LT(folds.risen, balance(without, 120).risen + 0.01 * folds.lost);
-  EXPECT_GT(folds.lost, 0.4);  // J, of the 0.54 that 0.1 kg have at 0.55 m
+  for (int fall = 0; fall < 8; ++fall) {
+    SimulationDescription scene = dropped_on_edge(fall < 4 ? 4 : 5, GetParam().description);
+    scene.cloths[0].position.y() += 4e-7 * fall;
+    Simulation<float> simulation(scene);
+    const Balance folds = balance(simulation, 120);
+    scene.effects.pop_back();
+    Simulation<float> without(scene);
+    EXPECT_LT(folds.risen, balance(without, 120).risen + 0.01 * folds.lost) << fall;
+    EXPECT_GT(folds.lost, 0.4) << fall;  // J, of the 0.54 that 0.1 kg have at 0.55 m
+  }
 }
 
 // The same of the explicit method, whose substeps are many: 0.26 J were seen where only the net held them.
@@ -194,10 +198,11 @@ TEST_P(SelfContact, ClothsOfASceneDoNotPassThroughEachOther) {
 // swing together without drag, clap, and stay. Before they meet it is the method's own affair.
 TEST_P(SelfContact, ClappingBringsInNoEnergy) {
   Simulation<float> simulation(clapping(5, GetParam().description));
-  const auto [risen, lost] = balance(simulation, 120);
-  // XPBD's own bound: it brings in as much before the halves meet, and without contact as well.
+  for (int step = 0; step < 18; ++step) simulation.step();  // then the halves meet
+  const auto [risen, lost] = balance(simulation, 102);
+  // XPBD's own bound: it brings in more before, without contact.
   const bool xpbd = std::holds_alternative<XpbdDescription>(GetParam().description);
-  EXPECT_LT(risen, (xpbd ? 0.15 : 0.002) * lost);
+  EXPECT_LT(risen, (xpbd ? 0.05 : 0.002) * lost);
   EXPECT_GT(lost, 0.03);  // J, of the 0.041 that the halves have when they meet
   EXPECT_EQ(intersections(simulation), 0);
 }
