@@ -35,6 +35,11 @@ constexpr double kSmallestShare = 1e-4;
 /// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
 constexpr double kMissedShare = 1e-3;
 
+/// Of energies that are added up and taken from each other, in units of the scalar's last digit: what cannot
+/// be told from a gain is none that may be taken. A flat sheet of 0.3 m and 6e5 N/m at rest had 5 J after a
+/// second, of forces that are nothing but rounding: the first change stretches it by metres.
+constexpr double kRounding = 4;
+
 template <class Real>
 void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
   std::copy_n(from.x, count, to.x);
@@ -365,7 +370,8 @@ auto Implicit<Real>::model_change(const Forces<Real>& forces, double decrease) c
     error.sum += gas;
     error.magnitude += std::abs(gas);
   }
-  return {error.sum - decrease, error.magnitude, error.largest};
+  const double rounding = kRounding * double(std::numeric_limits<Real>::epsilon());
+  return {error.sum - decrease + rounding * (error.magnitude + decrease), error.magnitude, error.largest};
 }
 
 template <class Real>
