@@ -61,6 +61,11 @@ class Cloth {
   void pin(const Vec2& at);
   /// Lets go of the pin that holds (u, v), or of the nearest one; false if there is none.
   bool unpin(const Vec2& at);
+  /// All that its next step follows from, as it is for `other`, a cloth of the same grids and limits of level
+  /// in another simulation: its integrator and what has befallen it, pins and grabs. Not the effects: gas is
+  /// left out where nothing shuts it in, and begins to be poured in where only this one has it; tears stay
+  /// whatever made them.
+  void take_state(const Cloth& other);
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
   void set_layers(LayerContacts<Real>* layers) { layers_ = layers; }
   /// Someone has written to particles() since the last step: that state is the last good one now, if it is

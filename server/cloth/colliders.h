@@ -70,6 +70,8 @@ class Colliders {
   const std::vector<Ball>& balls() const { return balls_; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   const Ball* find(BallId id) const;
+  /// The state of `other`, made of the same descriptions. Shapes stay its own.
+  void take_state(const Colliders& other);
   /// All that the cloths may meet in the step that has begun: the balls in their order, then the obstacles.
   const std::vector<Solid>& solids() const { return solids_; }
 

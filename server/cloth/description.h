@@ -226,6 +226,7 @@ struct ObstacleDescription {
 struct SymplecticEulerDescription {
   int substeps = 0;     ///< per step; 0 chooses the fewest that keep the stiffest mode stable
   double safety = 0.9;  ///< with substeps = 0: share of the stability limit used, (0, 1]
+  bool operator==(const SymplecticEulerDescription&) const = default;
   static constexpr const char* kName = "symplectic_euler";
 };
 /// The implicit methods: one linear system a Newton iteration, solved by multigrid conjugate gradients.
@@ -237,13 +238,16 @@ struct ImplicitParameters {
   /// would gain energy.
   int newton_iterations = 2;
   int linear_iterations = 60;  ///< at most, a linear solve; >= 1
+  bool operator==(const ImplicitParameters&) const = default;
 };
 /// Backward Euler: first order, damps (T3 in the truths), the sturdiest.
 struct BackwardEulerDescription : ImplicitParameters {
+  bool operator==(const BackwardEulerDescription&) const = default;
   static constexpr const char* kName = "backward_euler";
 };
 /// Backward differentiation formula of second order: nearly keeps the energy of slow motion.
 struct Bdf2Description : ImplicitParameters {
+  bool operator==(const Bdf2Description&) const = default;
   static constexpr const char* kName = "bdf2";
 };
 
@@ -254,6 +258,7 @@ struct XpbdDescription {
   /// the fewest that are as short as stated.
   int substeps = 0;
   double longest_substep = 1.0 / 2400;  ///< s, with substeps = 0: 40 a step of 1/60 s
+  bool operator==(const XpbdDescription&) const = default;
   static constexpr const char* kName = "xpbd";
 };
 using IntegratorDescription =

@@ -15,7 +15,10 @@ bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<
   for (Fixed& fixed : fixed_) {
     const auto found = std::find_if(solids.begin(), solids.end(),
                                     [&](const Solid& solid) { return solid.id == fixed.obstacle.id; });
-    if (found == solids.end()) continue;
+    if (found == solids.end()) {
+      fixed.obstacle.stand();
+      continue;
+    }
     fixed.obstacle = *found;
     move = move || found->moves();
     if (fixed.placed) continue;

@@ -22,7 +22,8 @@ class Pins {
 
   /// Whether any pin has a path or an obstacle.
   bool moving() const { return !carried_.empty() || !fixed_.empty(); }
-  /// A step of `dt` from `time` on, s, in which the solids go as they do. True if some pin moves in it.
+  /// A step of `dt` from `time` on, s, in which the solids go as they do. True if some pin moves in it; one
+  /// whose obstacle is not there stands still.
   bool begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time, double dt);
   /// Puts the nodes that move where they are at `time`, s, within the step that has begun.
   void carry(Particles<Real>& particles, double time) const;

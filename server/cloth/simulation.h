@@ -96,6 +96,18 @@ class Simulation {
   void pin(std::size_t cloth, const Vec2& at) { cloths_[cloth].pin(at); }
   bool unpin(std::size_t cloth, const Vec2& at) { return cloths_[cloth].unpin(at); }
 
+  /// The state of `other`, which is of the same scene, whatever has happened in it, on any number of threads:
+  /// the next steps give the same bits as there. Effects stay its own, so that one step can be made with and
+  /// without them. What is left of an effect it has not: tears stay, they are the cloth's shape; gas is let
+  /// out without one that shuts it in. What only it has begins anew. Effects by Cloth::add_effect stay where
+  /// they were added.
+  ///
+  /// Throws std::invalid_argument if cloths, obstacles or time steps differ; it is left as it was.
+  void take_state(const Simulation& other);
+  /// The same but for balls, obstacles and the hands on them: those stay its own, if it has any. Pins fixed
+  /// to an obstacle that it has not stand still.
+  void take_cloths(const Simulation& other);
+
   /// One fixed step of description().time_step seconds.
   void step();
   /// Back to the description's start, at the description's initial levels.

@@ -24,25 +24,7 @@ double middle_difference(const std::vector<double>& more, std::vector<double> le
   return middle_mean(std::move(less));
 }
 
-/// The scene with some of its effects, and what its frames took, ms.
-struct Variant {
-  explicit Variant(const SimulationDescription& description, int level)
-      : simulation(at_level<float>(description, level)) {}
-
-  void begin_at(const Simulation<float>& other) {
-    for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
-      simulation.cloths()[i].particles() = other.cloths()[i].particles();
-    }
-  }
-  void step() {
-    const double begin = thread_time();
-    simulation.step();
-    frames.push_back(1e3 * (thread_time() - begin));
-  }
-
-  Simulation<float> simulation;
-  std::vector<double> frames;
-};
+enum class Solids { scene, none };
 
 /// Pins that go with an obstacle stay where they are.
 SimulationDescription without_colliders(SimulationDescription description) {
@@ -53,6 +35,31 @@ SimulationDescription without_colliders(SimulationDescription description) {
   }
   return description;
 }
+
+/// The scene with some of its effects, and what its frames took, ms.
+struct Variant {
+  Variant(const SimulationDescription& description, int level, Solids solids_of = Solids::scene)
+      : solids(solids_of),
+        simulation(
+            at_level<float>(solids == Solids::none ? without_colliders(description) : description, level)) {}
+
+  void begin_at(const Simulation<float>& other) {
+    if (solids == Solids::none) {
+      simulation.take_cloths(other);
+    } else {
+      simulation.take_state(other);
+    }
+  }
+  void step() {
+    const double begin = thread_time();
+    simulation.step();
+    frames.push_back(1e3 * (thread_time() - begin));
+  }
+
+  Solids solids;
+  Simulation<float> simulation;
+  std::vector<double> frames;
+};
 
 std::string row(std::string_view name, double milliseconds, double all) {
   char text[100];
@@ -74,10 +81,10 @@ EffectsStudy study_effects(const SimulationDescription& description, int level, 
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
     variants.emplace_back(without, level);
   }
-  SimulationDescription bare = without_colliders(description);
-  variants.emplace_back(bare, level);
+  variants.emplace_back(description, level, Solids::none);
+  SimulationDescription bare = description;
   bare.effects.clear();
-  variants.emplace_back(bare, level);
+  variants.emplace_back(bare, level, Solids::none);
   const Variant &all = variants.front(), &no_contact = variants[effects + 1], &none = variants.back();
 
   for (int frame = 0; frame < frames; ++frame) {

@@ -24,9 +24,13 @@ struct EffectsStudy {
 };
 
 /// Steps the scene, the scene without each effect, that without colliders and that without all of these, in
-/// single precision and in turns: each frame begins from the full scene's state and is taken by all of them,
-/// in changing order, so that noise and the processor's moods meet all alike. Each figure is the mean of the
-/// middle half of the frames' differences.
+/// single precision and in turns: each frame begins from the full scene's whole state
+/// (Simulation::take_state) and is taken by all of them, in changing order, so that noise and the processor's
+/// moods meet all alike. Each figure is the mean of the middle half of the frames' differences.
+///
+/// An effect's figure is so what it costs in a step, not what a scene would cost that had never had it. What
+/// it has done to the cloth is in both: without tearing a torn sheet stays as torn as it is. What is there
+/// only as long as the effect is goes with it: without inflation a bag is open, as full as it is.
 EffectsStudy study_effects(const SimulationDescription& description, int level, int frames,
                            const std::function<void()>& watch);
 

@@ -102,6 +102,13 @@ class Contact {
   /// was kept; after expect() by node, then collider.
   const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
+  /// What `other`, of the same grid, found in its steps and counted.
+  void take_state(const Contact& other) {
+    counters_ = other.counters_;
+    touches_ = other.touches_;
+    not_held_ = other.not_held_;
+    kept_aside_ = other.kept_aside_;
+  }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
 
  private:

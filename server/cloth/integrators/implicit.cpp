@@ -64,19 +64,16 @@ template <class Real>
 Implicit<Real>::State::State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn)
     : system(grid, has_bending, plate, sewn),
       solver(grid),
-      numbers(grid, 2),
-      vectors(grid, 24),
+      numbers(grid, 1),
+      vectors(grid, 18),
       start(grid),
       start_velocity(grid),
       force(grid),
       step{numbers[0], vectors.vector(0), vectors.vector(3)},
-      second_order(numbers[1]),
-      last_move(vectors.vector(6)),
-      last_velocity(vectors.vector(9)),
-      position(vectors.vector(12)),
-      b(vectors.vector(15)),
-      change(vectors.vector(18)),
-      move(vectors.vector(21)) {}
+      position(vectors.vector(6)),
+      b(vectors.vector(9)),
+      change(vectors.vector(12)),
+      move(vectors.vector(15)) {}
 
 template <class Real>
 AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
@@ -86,7 +83,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double h = dt / parameters_.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
-  ContactConstraints<Real>& contacts = state_->contacts;
+  ContactConstraints<Real>& contacts = memory_->contacts;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
@@ -131,6 +128,7 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_.emplace(grid, forces.springs->has_bending(), forces.plate, forces.seam != nullptr);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
+  if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid);
   const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
   if (state_->h != h || tore) {
     state_->h = h;
@@ -155,13 +153,13 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Layer
   s.h = h;
   const std::size_t count = particles.grid().size();
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
-  const auto begin_anew = [&](std::size_t node) { s.second_order[node] = Real(0); };
-  s.contacts.for_each_node(begin_anew);
+  const auto begin_anew = [&](std::size_t node) { memory_->begin_anew(node); };
+  memory_->contacts.for_each_node(begin_anew);
   if (layers != nullptr) layers->for_each_node(begin_anew);
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
   begin_formula(h);
-  s.target = s.motion.target(parameters_.tolerance, !s.contacts.empty());
+  s.target = s.motion.target(parameters_.tolerance, !memory_->contacts.empty());
 }
 
 template <class Real>
@@ -180,7 +178,7 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
     s.system.set_rank_one(forces.gas->stiffness(), kernels::components(forces.gas->gradient()));
   }
   std::fill_n(finest.diagonal(), count, Real(0));
-  const bool blocks = !s.contacts.empty() || needs_blocks(forces);
+  const bool blocks = !memory_->contacts.empty() || needs_blocks(forces);
   finest.use_blocks(blocks);
   for (const auto& effect : *forces.effects) {
     effect->add_damping(particles, forces.context, {finest.diagonal(), finest.matrix.blocks});
@@ -195,9 +193,9 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   } else {
     kernels::assemble_system<Real>(mass, finest.free(), s.step, iterate, finest.diagonal(), s.b, count);
   }
-  if (!s.contacts.empty()) {
-    s.contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
-                      forces.springs->node_stiffness(), s.move);
+  if (!memory_->contacts.empty()) {
+    memory_->contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
+                             forces.springs->node_stiffness(), s.move);
   }
   if (forces.layers != nullptr) {
     forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
@@ -228,7 +226,7 @@ int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& fo
   copy<Real>(kernels::components(s.start_velocity), kernels::components(particles.velocity), count);
   // Past motion says little about what follows: from here on as backward Euler, the next substep too.
   s.smooth = false;
-  std::fill_n(s.second_order, count, Real(0));
+  memory_->second_order.fill(Real(0));
   begin_formula(h);
   guess_move(h);
   const NewtonReport searched = iterate(particles, forces, &Implicit::searched_change);
@@ -239,8 +237,10 @@ int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& fo
 template <class Real>
 void Implicit<Real>::begin_formula(double h) {
   State& s = *state_;
-  kernels::begin_backward_step<Real>(s.second_order, kernels::components(s.start_velocity), s.last_move,
-                                     s.last_velocity, static_cast<Real>(h), s.step, s.system.grid().size());
+  kernels::begin_backward_step<Real>(memory_->second_order.row(0), kernels::components(s.start_velocity),
+                                     kernels::components(memory_->last_move),
+                                     kernels::components(memory_->last_velocity), static_cast<Real>(h),
+                                     s.step, s.system.grid().size());
 }
 
 template <class Real>
@@ -269,7 +269,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     s.target = {.least = solved.target};
     const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
     s.motion.found(decrease);
-    const bool stray = left <= -kWholeSpareIterations && s.contacts.empty() && forces.layers == nullptr;
+    const bool stray =
+        left <= -kWholeSpareIterations && memory_->contacts.empty() && forces.layers == nullptr;
     const ChangeReport changed =
         stray ? searched_change(forces, decrease) : (this->*change)(forces, decrease);
     s.system.bodies().take_changes();
@@ -284,7 +285,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
     report.found = report.found || (solved.finite && found);
     double error = changed.error, pulling = 0;
-    if (!s.contacts.empty()) pulling += s.contacts.release_pulling(s.move, s.system.bodies());
+    if (!memory_->contacts.empty()) pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
     const double motion = s.kept_stiffness * s.motion.energy();
@@ -308,8 +309,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
 template <class Real>
 bool Implicit<Real>::let_go(const Particles<Real>& particles) {
   State& s = *state_;
-  return !s.contacts.empty() &&
-         s.contacts.let_go_of_slid_off(particles, *surroundings_.solids, s.move, s.system.bodies());
+  return !memory_->contacts.empty() &&
+         memory_->contacts.let_go_of_slid_off(particles, *surroundings_.solids, s.move, s.system.bodies());
 }
 
 template <class Real>
@@ -319,12 +320,13 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
   if (contact == nullptr) return false;
   State& s = *state_;
   AttachedBodies<Real>& bodies = s.system.bodies();
-  const std::vector<Solid> bent = bodies.empty() ? std::vector<Solid>{} : s.contacts.bent(*solids, bodies);
+  const std::vector<Solid> bent =
+      bodies.empty() ? std::vector<Solid>{} : memory_->contacts.bent(*solids, bodies);
   const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
-  if (!s.contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
-                              springs.node_stiffness(), missed))
+  if (!memory_->contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
+                                     springs.node_stiffness(), missed))
     return false;
-  s.contacts.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  memory_->contacts.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
   begin_formula(s.h);
   return true;
 }
@@ -333,7 +335,7 @@ template <class Real>
 bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
   State& s = *state_;
   if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
-  layers.for_each_node([&](std::size_t node) { s.second_order[node] = Real(0); });
+  layers.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
   begin_formula(s.h);
   return true;
 }
@@ -352,7 +354,8 @@ template <class Real>
 auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
   State& s = *state_;
   s.one_sided.clear();
-  if (!s.contacts.empty()) s.contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
+  if (!memory_->contacts.empty())
+    memory_->contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
   if (forces.layers != nullptr) forces.layers->append_springs(s.move, s.change, s.one_sided);
   const double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
   if (share < 1) scale_change(share);
@@ -397,12 +400,12 @@ void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>
                                    kernels::components(particles.acceleration), count);
   if (!second_order_) return;
   kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(s.start),
-                                   Real(1), s.last_move, count);
-  copy<Real>(kernels::components(s.start_velocity), s.last_velocity, count);
-  std::fill_n(s.second_order, count, s.smooth ? Real(1) : Real(0));
+                                   Real(1), kernels::components(memory_->last_move), count);
+  memory_->last_velocity = s.start_velocity;
+  memory_->second_order.fill(s.smooth ? Real(1) : Real(0));
   s.smooth = true;
   if (contact == nullptr) return;
-  for (const Touch& touch : contact->touches()) s.second_order[touch.node] = Real(0);
+  for (const Touch& touch : contact->touches()) memory_->begin_anew(touch.node);
 }
 
 template class Implicit<float>;

@@ -38,10 +38,27 @@ class Implicit final : public Integrator<Real> {
   const char* name() const override { return name_; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         std::vector<Solid>& solids, double time, double dt) override;
-  void restart() override { state_.reset(); }
+  void restart() override {
+    state_.reset();
+    memory_.reset();
+  }
+  void take_memory(const Integrator<Real>& other) override {
+    memory_ = static_cast<const Implicit&>(other).memory_;
+  }
 
  private:
-  /// All that lives on one grid.
+  /// What a substep leaves to the next one.
+  struct Memory {
+    explicit Memory(const Grid& grid) : second_order(grid), last_move(grid), last_velocity(grid) {}
+
+    Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
+    VectorField<Real> last_move, last_velocity;
+    ContactConstraints<Real> contacts;
+
+    /// The node's next substep is one of backward Euler.
+    void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }
+  };
+  /// All else that lives on one grid.
   struct State {
     State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn);
 
@@ -51,11 +68,8 @@ class Implicit final : public Integrator<Real> {
     VectorField<Real> start, start_velocity, force;
     VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where springs are undamped
     kernels::BackwardStep<Real> step;
-    Real* second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
-    kernels::Components<Real> last_move, last_velocity;
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
-    ContactConstraints<Real> contacts;
     std::vector<OneSidedSpring> one_sided;  ///< those of a change
     double h = 0;                           ///< s, of the last step's substeps
     std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
@@ -112,6 +126,7 @@ class Implicit final : public Integrator<Real> {
   ImplicitParameters parameters_;
   bool second_order_;
   std::optional<State> state_;
+  std::optional<Memory> memory_;
   struct Surroundings {
     Contact<Real>* contact = nullptr;  ///< or none
     const std::vector<Solid>* solids = nullptr;

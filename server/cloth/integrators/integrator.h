@@ -76,6 +76,8 @@ class Integrator {
                                 std::vector<Solid>& solids, double time, double dt) = 0;
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
+  /// Goes on from what `other`, made by the same description, remembers of its steps.
+  virtual void take_memory(const Integrator&) {}
 };
 
 template <class Real>

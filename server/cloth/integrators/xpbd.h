@@ -47,6 +47,7 @@ class Xpbd final : public Integrator<Real> {
     refinement_.restart();
     times_ = 1;
   }
+  void take_memory(const Integrator<Real>& other) override { *this = static_cast<const Xpbd&>(other); }
 
  private:
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.

@@ -44,8 +44,8 @@ Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * norm
 template <class Real>
 LayerContacts<Real>::LayerContacts(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid,
                                    std::size_t cloth, const LayerParameters& parameters)
-    : nodes_(nodes),
-      found_(found),
+    : nodes_(&nodes),
+      found_(&found),
       grid_(grid),
       first_(nodes.first[cloth]),
       end_(nodes.first[cloth + 1]),
@@ -76,15 +76,15 @@ void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep&
   own_.start.resize(count);
   own_.velocity.resize(count);
   own_.end.resize(count);
-  own_.inverse_mass.assign(nodes_.inverse_mass.begin() + first_, nodes_.inverse_mass.begin() + end_);
-  own_.tangled.assign(nodes_.tangled.begin() + first_, nodes_.tangled.begin() + end_);
+  own_.inverse_mass.assign(nodes_->inverse_mass.begin() + first_, nodes_->inverse_mass.begin() + end_);
+  own_.tangled.assign(nodes_->tangled.begin() + first_, nodes_->tangled.begin() + end_);
   for (std::size_t i = 0; i < count; ++i) {
     own_.velocity[i] = at(velocity, i);
     own_.start[i] = at(position, i);
     // A pin is at the substep's end already.
     if (own_.inverse_mass[i] == 0) {
       own_.end[i] = own_.start[i];
-      own_.start[i] += (1 - substep.from / substep.to) * (nodes_.start[first_ + i] - own_.start[i]);
+      own_.start[i] += (1 - substep.from / substep.to) * (nodes_->start[first_ + i] - own_.start[i]);
     }
   }
   const double drop = standard_gravity().norm() * substep.seconds * substep.seconds;
@@ -112,7 +112,7 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
     if (own(n)) {
       c.coupling.node[i] = n - first_;
       const Vec3 &start = own_.start[n - first_], &end = own_.end[n - first_];
-      if (nodes_.inverse_mass[n] == 0) {  // a pin's way is no move of the substep's system
+      if (nodes_->inverse_mass[n] == 0) {  // a pin's way is no move of the substep's system
         c.distance += w * c.normal.dot(end);
         continue;
       }
@@ -121,11 +121,11 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
       slip += w * h * own_.velocity[n - first_];
       continue;
     }
-    const Vec3 v = nodes_.velocity[n] + past * nodes_.acceleration[n];
-    const Vec3 way = h * (v + h * nodes_.acceleration[n]);
-    c.distance += w * c.normal.dot(nodes_.start[n] + past * v);
+    const Vec3 v = nodes_->velocity[n] + past * nodes_->acceleration[n];
+    const Vec3 way = h * (v + h * nodes_->acceleration[n]);
+    c.distance += w * c.normal.dot(nodes_->start[n] + past * v);
     others += w * c.normal.dot(way);
-    others_share += w * w * nodes_.inverse_mass[n];
+    others_share += w * w * nodes_->inverse_mass[n];
     c.slid += w * way;
   }
   slip += c.slid;
@@ -331,8 +331,8 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
         x[i] = at<Real>(position, n - first_);
         v[i] = at<Real>(velocity, n - first_);
       } else {
-        v[i] = nodes_.velocity[n];
-        x[i] = nodes_.start[n] + past * v[i];
+        v[i] = nodes_->velocity[n];
+        x[i] = nodes_->start[n] + past * v[i];
       }
     }
     const Nearness near = nearness(pair.features.kind, x);
@@ -344,7 +344,7 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     Vec3 relative(0, 0, 0);
     for (std::size_t i = 0; i < 4; ++i) {
       const double w = near.weight[i];
-      share += w * w * nodes_.inverse_mass[pair.features.node[i]];
+      share += w * w * nodes_->inverse_mass[pair.features.node[i]];
       relative += w * v[i];
     }
     if (share == 0) continue;
@@ -362,13 +362,13 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     const Vec3 push = apart / share * normal;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
-      const double w = near.weight[i] * nodes_.inverse_mass[n];
+      const double w = near.weight[i] * nodes_->inverse_mass[n];
       if (!own(n) || w == 0) continue;
       add(velocity, n - first_, w * impulse);
       add(position, n - first_, w * push);
     }
   }
-  if (substep.from == 0) substep_net_.begin_step(nodes_, found_, first_, end_);
+  if (substep.from == 0) substep_net_.begin_step(*nodes_, *found_, first_, end_);
   substep_net_.apply(particles, substep);
 }
 

@@ -102,6 +102,15 @@ class LayerContacts {
   /// What other cloths gave each node in the last implicit step, N s.
   const std::vector<Vec3>& given() const { return given_; }
 
+  /// Those of the same cloth in another simulation; the nodes and the search stay its own.
+  void take_state(const LayerContacts& other) {
+    const LayerNodes* nodes = nodes_;
+    const FeatureSearch* found = found_;
+    *this = other;
+    nodes_ = nodes;
+    found_ = found;
+  }
+
  private:
   /// By what a pair is known again in the next step: node and side, or both edges.
   using Key = std::array<std::uint32_t, 4>;
@@ -139,8 +148,8 @@ class LayerContacts {
   void adapt(kernels::Components<const Real> move);
   Vec3 slip(const Constraint& c, kernels::Components<const Real> move) const;
 
-  const LayerNodes& nodes_;
-  const FeatureSearch& found_;
+  const LayerNodes* nodes_;
+  const FeatureSearch* found_;
   Grid grid_;
   std::shared_ptr<const TornLinks> torn_;  ///< nullptr while the cloth is whole
   std::uint32_t first_, end_;              ///< of this cloth's nodes

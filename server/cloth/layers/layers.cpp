@@ -260,6 +260,24 @@ void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
   }
 }
 
+template <class Real>
+void Layers<Real>::take_state(const Layers* other, std::vector<Cloth<Real>>& cloths) {
+  lay_out(cloths);
+  if (other == nullptr || other->grids_ != grids_) {
+    grids_.clear();
+    lay_out(cloths);
+    return;
+  }
+  torn_ = other->torn_;
+  nodes_ = other->nodes_;
+  search_ = other->search_;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i]->take_state(*other->contacts_[i]);
+  left_out_ = other->left_out_;
+  found_ = other->found_;
+  may_be_tangled_ = other->may_be_tangled_;
+  tangled_ = other->tangled_;
+}
+
 template class Layers<float>;
 template class Layers<double>;
 

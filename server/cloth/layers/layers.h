@@ -29,6 +29,10 @@ class Layers {
   /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth.
   void end_step(std::vector<Cloth<Real>>& cloths, double dt);
 
+  /// The state of `other`, of the same effect, whose cloths these are copies of; nullptr: there is none, it
+  /// begins anew.
+  void take_state(const Layers* other, std::vector<Cloth<Real>>& cloths);
+
   /// Nodes that are left alone, as the last step began.
   int tangled_nodes() const { return tangled_; }
 

@@ -1,6 +1,8 @@
 #include "study/effects.h"
 
+#include "cloth/state_hash.h"
 #include "fixtures.h"
+#include "study/trajectory.h"
 
 namespace weft::study::test {
 namespace {
@@ -27,6 +29,25 @@ TEST(Effects, ASceneWithoutAnyIsAllRest) {
   const EffectsStudy study = study_effects(description, 3, 4, kNothing);
   EXPECT_TRUE(study.effects.empty());
   EXPECT_GT(study.all, 0);
+}
+
+// Pillows and torn paper, too: what is measured begins at the whole state.
+TEST(Effects, OfAllPresetsAreMeasuredFromStatesThatGoOnToTheBit) {
+  for (const scene::Preset& preset : scene::presets()) {
+    SCOPED_TRACE(preset.name);
+    const auto loaded = std::get<scene::Scene>(scene::load(std::string(preset.name)));
+    const SimulationDescription& description = loaded.simulation;
+    Simulation<float> original = at_level<float>(description, 4);
+    for (int step = 0; step < 100; ++step) original.step();
+    Simulation<float> copy = at_level<float>(description, 4);
+    copy.take_state(original);
+    for (int step = 0; step < 10; ++step) {
+      original.step();
+      copy.step();
+      ASSERT_EQ(state_hash(copy), state_hash(original)) << step;
+    }
+    EXPECT_EQ(study_effects(description, 4, 4, kNothing).effects.size(), description.effects.size());
+  }
 }
 
 TEST(Effects, TableHasALineEach) {
