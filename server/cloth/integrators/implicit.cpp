@@ -260,7 +260,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
   State& s = *state_;
   const std::size_t count = particles.grid().size();
   NewtonReport report;
-  const bool heap = forces.layered && !s.contacts.empty();
+  const bool heap = forces.layered && !memory_->contacts.empty();
   int heap_rounds = 0;
   for (int left = parameters_.newton_iterations; left > -kSpareIterations; --left) {
     assemble(particles, forces);
