@@ -98,6 +98,7 @@ bool Cloth<Real>::apply_pending_level() {
   pending_level_.reset();
   const bool changes = target != level_;
   if (changes) guard_.repair(particles_);
+  if (changes) held_ = elastic_energy();
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
@@ -112,10 +113,14 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
-  // The paper's own rules change levels as the paper does, an implicit step finds its balance by itself.
-  if (changes && unsettled_ == Unsettled::no && !is_implicit(guard_.method()) &&
-      description_.discretization == Discretization::continuum) {
-    unsettled_ = Unsettled::by_level;
+  // The paper's own rules change levels as the paper does. An implicit step finds its balance by itself, but
+  // what springs hold more than before it would make motion.
+  if (changes && unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
+    if (!is_implicit(guard_.method())) {
+      unsettled_ = Unsettled::by_level;
+    } else if (elastic_energy() > held_) {
+      unsettled_ = Unsettled::by_gain;
+    }
   }
   return changes;
 }
@@ -287,9 +292,10 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
-    if (unsettled_ != Unsettled::no) {
+    for (int left = unsettled_ == Unsettled::no ? 0 : rounds_of(unsettled_); left > 0; --left) {
       settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
              solids.empty() ? nullptr : &contact(), solids, dt);
+      if (elastic_energy() <= held_) break;
     }
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);

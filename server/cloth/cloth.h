@@ -42,7 +42,7 @@ class Cloth {
   /// Asks for a level, clamped to the cloth's own limits; it is reached before the next step.
   void request_level(int level);
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
-  /// The next advance() then settles the cloth first, unless it is implicit (settle.h).
+  /// The next advance() then settles the cloth first; an implicit one where springs gained (settle.h).
   bool apply_pending_level();
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
@@ -138,6 +138,7 @@ class Cloth {
   int level_ = 0;
   std::optional<int> pending_level_;
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
+  double held_ = 0;                      ///< J, by springs and plate before the last change of level
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;

@@ -9,6 +9,9 @@ enum class Unsettled {
   /// Nodes taken over from a finer level leave the springs across folds compressed, new ones lie on chords,
   /// in solids too: for methods that would turn that into motion.
   by_level,
+  /// The same where springs and plate hold more than they did at the level left, for methods that find their
+  /// balance by themselves: steps end when they hold no more.
+  by_gain,
   /// A solid was put onto nodes: a ball of twice the size in a drape has a fifth of a metre to lift them, and
   /// a step that did so would send the hem off at 25 m/s.
   by_solid,
@@ -17,6 +20,9 @@ enum class Unsettled {
   /// is smooth is left with 4 J, held by its own folds (level 5, explicit methods).
   by_gas,
 };
+
+/// How often to settle at most while springs hold more than they did.
+inline int rounds_of(Unsettled by) { return by == Unsettled::by_gain ? 4 : 1; }
 
 /// Whether a solid has just been put onto free nodes, as all are when the step begins.
 template <class Real>
