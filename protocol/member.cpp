@@ -10,6 +10,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMaxCapabilities = 16;
+// Of an object of numbers.
+constexpr Bounds kMembers{1, 16};
+constexpr std::size_t kMaxNumbers = 3;
 constexpr const char* kKinematic = "kinematic";
 constexpr const char* kDynamic = "dynamic";
 
@@ -18,6 +21,25 @@ std::string number_text(double value) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 10);
   return {text.data(), end.ptr};
+}
+
+std::string kind_of_numbers() {
+  return "a number or an array of 2.." + std::to_string(kMaxNumbers) + " numbers";
+}
+
+Fault read_numbers(const json& value, const std::string& path, Numbers& to) {
+  if (value.is_number()) {
+    to = {value.get<double>()};
+    return {};
+  }
+  if (!value.is_array() || value.size() < 2 || value.size() > kMaxNumbers)
+    return refuse("bad_type", path, value, kind_of_numbers());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].is_number())
+      return refuse("bad_type", pointer_to(path, std::to_string(i)), value[i], "a number");
+    to.push_back(value[i].get<double>());
+  }
+  return {};
 }
 
 }  // namespace
@@ -100,12 +122,38 @@ Fault read(const json& value, const Bounds& bounds, const std::string& path, boo
   return {};
 }
 
+std::string kind_of(const std::map<std::string, Numbers>&, const Bounds&) {
+  return "an object of " + range_text(kMembers) + " members, each " + kind_of_numbers();
+}
+
+Fault read(const json& value, const Bounds& bounds, const std::string& path,
+           std::map<std::string, Numbers>& to) {
+  if (!value.is_object()) return refuse("bad_type", path, value, kind_of(to, bounds));
+  const auto members = static_cast<double>(value.size());
+  if (members < kMembers.low || members > kMembers.high)
+    return refuse("range", path, value, kind_of(to, bounds));
+  for (const auto& [name, number] : value.items()) {
+    if (auto fault = read_numbers(number, pointer_to(path, name), to[name])) return fault;
+  }
+  return {};
+}
+
 void write(const Motion& motion, nlohmann::ordered_json& to) {
   to = motion == Motion::dynamic ? kDynamic : kKinematic;
 }
 
 void write(const std::string& from, nlohmann::ordered_json& to) {
   if (!from.empty()) to = from;
+}
+
+void write(const std::map<std::string, Numbers>& from, nlohmann::ordered_json& to) {
+  for (const auto& [name, numbers] : from) {
+    if (numbers.size() == 1) {
+      to[name] = numbers[0];
+    } else {
+      to[name] = numbers;
+    }
+  }
 }
 
 }  // namespace weft::protocol

@@ -2,6 +2,7 @@
 /// Control messages of PROTOCOL.md sections 2 and 3: JSON text <-> values.
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -108,6 +109,12 @@ struct EffectSet {
   std::string effect;
   bool on = true;
 };
+/// A number, or an array of several.
+using Numbers = std::vector<double>;
+struct EffectTune {
+  std::string effect;
+  std::map<std::string, Numbers> parameters;  ///< by name, at least one
+};
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
@@ -136,8 +143,8 @@ struct Ping {
 
 using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
                              BallRemove, ObstacleMove, ObstacleThrow, ObstacleGrab, ClothGrab, GrabMove,
-                             GrabRelease, ClothPin, ClothUnpin, EffectSet, WindSet, WindZoneSet, Quality,
-                             Cost, Pause, Resume, Reset, Step, Ping>;
+                             GrabRelease, ClothPin, ClothUnpin, EffectSet, EffectTune, WindSet, WindZoneSet,
+                             Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

@@ -93,6 +93,9 @@ function start(settings) {
     setEffect: async (effect, on) => {
       if (!(await command({op: 'effect.set', effect, on}))) effects.setOff(effectsOff);
     },
+    tune: async (effect, parameters) => {
+      if (!(await command({op: 'effect.tune', effect, parameters}))) effects.takeBack(effect);
+    },
   });
   const zones = new ZonesPanel({
     setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
@@ -215,7 +218,7 @@ function start(settings) {
       panel.setWind(show.wind, show.hasWind);
       zones.begin(show.wind);
       obstacles.begin(message.obstacles ?? []);
-      effects.begin(message.effects);
+      effects.begin(message);
       setEffectsOff(message.effects_off ?? []);
       tellNothing();
       cost.begin();
@@ -234,9 +237,15 @@ function start(settings) {
         setEffectsOff(message.effects_off);
         cost.begin();  // what was measured was another composition
       }
+      if (message.kind === 'tune') {
+        effects.setParameters(message.effect, message.parameters);
+        cost.begin();
+      }
       if (message.kind === 'reset') {
-        if (effectsOff.length > 0) cost.begin();
+        const own = message.parameters ?? {};
+        if (effectsOff.length > 0 || JSON.stringify(own) !== JSON.stringify(effects.parameters)) cost.begin();
         setEffectsOff([]);
+        for (const [effect, parameters] of Object.entries(own)) effects.setParameters(effect, parameters);
         tellNothing();
         clothHand.forget();
         hand.forget();
@@ -313,7 +322,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff});
+  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff, effects});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -326,7 +335,7 @@ function aimed(from, to, speed) {
 }
 
 /** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff}) {
+function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff, effects}) {
   window.weft = {
     get stats() {
       return {
@@ -343,6 +352,7 @@ function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, e
         obstacles: show.obstacles.meshes.map((_, index) => show.obstacles.place(index)),
         hand: clothHand.held,
         effectsOff: effectsOff(),
+        parameters: effects.parameters,
         pins: Object.fromEntries(show.marks.held),
         server: latest.stats,
       };

@@ -204,6 +204,17 @@ void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
 }
 
 template <class Real>
+void Cloth<Real>::tune_effects(const std::vector<EffectDescription>& effects) {
+  const double damping_time = damping_time_;
+  guard_.repair(particles_);
+  compose(effects);
+  if (damping_time_ != damping_time) return set_effects(effects);
+  fill();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
 void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
   effects_.push_back(std::move(effect));
   wake();

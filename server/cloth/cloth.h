@@ -50,6 +50,9 @@ class Cloth {
   /// Is composed of these effects, as if made with them; what was added besides stays. The cloth wakes, and
   /// its integrator knows nothing of the steps before.
   void set_effects(const std::vector<EffectDescription>& effects);
+  /// The same, of effects of the same types in the same order: its integrator goes on from the steps before,
+  /// unless the springs are damped otherwise, of which it keeps copies.
+  void tune_effects(const std::vector<EffectDescription>& effects);
   /// A hand takes hold; the cloth wakes. Ids are the caller's and differ.
   void grab(const Grab& grab);
   /// False if there is no such grab.

@@ -77,6 +77,7 @@ struct StrainLimitEffect {
 struct ClothContactEffect {
   double thickness = 0.005;  ///< kept between layers, m; finite, > 0. Held to half a cell of a level.
   double friction = 0.3;     ///< Coulomb's coefficient between cloth and cloth, >= 0
+  bool operator==(const ClothContactEffect&) const = default;
   static constexpr const char* kName = "cloth_contact";
 };
 

@@ -25,6 +25,19 @@ std::vector<Cloth<Real>> make_cloths(const SimulationDescription& description) {
   return cloths;
 }
 
+bool of_same_types(const std::vector<EffectDescription>& a, const std::vector<EffectDescription>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& one, const auto& other) { return one.index() == other.index(); });
+}
+
+std::optional<ClothContactEffect> cloth_contact(const std::vector<EffectDescription>& effects) {
+  std::optional<ClothContactEffect> found;
+  for (const EffectDescription& effect : effects) {
+    if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) found = *contact;
+  }
+  return found;
+}
+
 }  // namespace
 
 template <class Real>
@@ -61,23 +74,30 @@ void Simulation<Real>::set_wind_zone(std::size_t zone, const Vec3& velocity) {
 
 template <class Real>
 void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects) {
-  for (Cloth<Real>& cloth : cloths_) {
-    cloth.set_layers(nullptr);
-    cloth.set_effects(effects);
-  }
   colliders_.wake();
-  compose(effects);
+  if (!of_same_types(effects, effects_)) {
+    for (Cloth<Real>& cloth : cloths_) cloth.set_effects(effects);
+    compose(effects);
+    return;
+  }
+  for (Cloth<Real>& cloth : cloths_) cloth.tune_effects(effects);
+  gravity_ = total_gravity(effects);
+  const auto contact = cloth_contact(effects);
+  if (contact != cloth_contact(effects_)) make_layers(contact);
+  effects_ = effects;
 }
 
 template <class Real>
 void Simulation<Real>::compose(const std::vector<EffectDescription>& effects) {
+  effects_ = effects;
   gravity_ = total_gravity(effects);
-  layers_.reset();
-  for (const EffectDescription& effect : effects) {
-    if (const auto* contact = std::get_if<ClothContactEffect>(&effect)) {
-      layers_ = std::make_unique<Layers<Real>>(*contact);
-    }
-  }
+  make_layers(cloth_contact(effects));
+}
+
+template <class Real>
+void Simulation<Real>::make_layers(const std::optional<ClothContactEffect>& contact) {
+  for (Cloth<Real>& cloth : cloths_) cloth.set_layers(nullptr);
+  layers_ = contact ? std::make_unique<Layers<Real>>(*contact) : nullptr;
 }
 
 template <class Real>

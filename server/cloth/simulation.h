@@ -71,7 +71,8 @@ class Simulation {
   /// description's.
   void set_integrator(const IntegratorDescription& integrator);
   /// Only these effects are simulated from the next step on, in every cloth and for the balls; until reset(),
-  /// which goes back to the description's.
+  /// which goes back to the description's. Where they are of the types that are simulated already, in the
+  /// same order, only their numbers change and integrators go on from the steps before.
   void set_effects(const std::vector<EffectDescription>& effects);
   BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
@@ -116,6 +117,8 @@ class Simulation {
  private:
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
   void compose(const std::vector<EffectDescription>& effects);
+  /// Contact between cloths begins anew, if there is any.
+  void make_layers(const std::optional<ClothContactEffect>& contact);
   /// All cloths, for islands of what sleeps together.
   std::vector<Sleeper> sleepers() const;
   /// Dynamic balls and bodies meet each other and what is in their way.
@@ -127,6 +130,7 @@ class Simulation {
   void collect_guard_events();
 
   SimulationDescription description_;
+  std::vector<EffectDescription> effects_;  ///< those that are simulated
   Vec3 gravity_{0, 0, 0};
   Air air_;
   Colliders colliders_;

@@ -21,7 +21,8 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
     : scene_(std::move(scene)),
       limits_(limits),
       simulation_(scene_.simulation),
-      quality_(scene_.quality, scene_.simulation.integrator) {
+      quality_(scene_.quality, scene_.simulation.integrator),
+      effects_(scene_.simulation.effects) {
   for (const Cloth<float>& cloth : simulation_.cloths()) {
     finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
   }
@@ -40,7 +41,8 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.visit = visit;
   seat.distance = scene_.camera_distance;
   look(seat);
-  seat.viewer->send(visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_}, seat)));
+  seat.viewer->send(
+      visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_, effects_}, seat)));
   for (const GuardLog::Notice& notice : guard_.standing())
     seat.viewer->send(visit, make_text(protocol::notice_text(notice.code, notice.message)));
   seats_.push_back(std::move(seat));
@@ -115,14 +117,18 @@ void LiveScene::use_chosen_integrator() {
 
 SimulationDescription LiveScene::studied() const {
   SimulationDescription description = scene_.simulation;
-  std::erase_if(description.effects, [&](const EffectDescription& effect) {
-    return std::find(effects_off_.begin(), effects_off_.end(), name_of(effect)) != effects_off_.end();
-  });
+  description.effects = effects_;
+  std::erase_if(description.effects,
+                [&](const EffectDescription& effect) { return is_off(name_of(effect)); });
   return description;
 }
 
-void LiveScene::recompose() {
-  simulation_.set_effects(studied().effects);
+bool LiveScene::is_off(std::string_view effect) const {
+  return std::find(effects_off_.begin(), effects_off_.end(), effect) != effects_off_.end();
+}
+
+void LiveScene::effects_changed() {
+  recompose_ = true;
   ++study_number_;
   quality_.outdated();
   const auto waits = [](const Seat& seat) { return seat.wants_curve; };
@@ -143,6 +149,7 @@ bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || wait
 void LiveScene::step() {
   for (Seat& seat : seats_) look(seat, 1);
   request_levels();
+  if (std::exchange(recompose_, false)) simulation_.set_effects(studied().effects);
   simulation_.step();
   tell_guard_events();
   const auto& cloths = simulation_.cloths();

@@ -23,9 +23,9 @@ using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
                  protocol::BallRemove, protocol::ObstacleMove, protocol::ObstacleThrow,
                  protocol::ObstacleGrab, protocol::ClothGrab, protocol::GrabMove, protocol::GrabRelease,
-                 protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet, protocol::WindSet,
-                 protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume,
-                 protocol::Reset, protocol::Step>;
+                 protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet, protocol::EffectTune,
+                 protocol::WindSet, protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause,
+                 protocol::Resume, protocol::Reset, protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -100,6 +100,7 @@ class LiveScene {
   Outcome carry_out(const protocol::ClothPin& pin, Seat& seat);
   Outcome carry_out(const protocol::ClothUnpin& unpin, Seat& seat);
   Outcome carry_out(const protocol::EffectSet& effect, Seat& seat);
+  Outcome carry_out(const protocol::EffectTune& tuning, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
   Outcome carry_out(const protocol::WindZoneSet& set, Seat& seat);
   Outcome carry_out(const protocol::Quality& quality, Seat& seat);
@@ -122,8 +123,11 @@ class LiveScene {
   bool unseen(std::size_t cloth) const;
   void request_levels();
   void use_chosen_integrator();
-  /// The effects that are not off, now simulated.
-  void recompose();
+  std::optional<protocol::Error> missing_effect(const std::string& effect) const;
+  bool is_off(std::string_view effect) const;
+  /// The effects that are on, or their parameters, are others now: the next step is composed of them, and
+  /// what was studied is of another scene.
+  void effects_changed();
   void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();
@@ -144,9 +148,11 @@ class LiveScene {
   GuardLog guard_;
   std::vector<std::string> guard_texts_;
   std::vector<Seat> seats_;
-  std::vector<int> finest_sendable_;      ///< by cloth
-  std::vector<BoundingSphere> bounds_;    ///< of the cloths; without a radius where nobody asks for it
-  std::vector<std::string> effects_off_;  ///< of the scene's, by name, in its order
+  std::vector<int> finest_sendable_;        ///< by cloth
+  std::vector<BoundingSphere> bounds_;      ///< of the cloths; without a radius where nobody asks for it
+  std::vector<EffectDescription> effects_;  ///< the scene's, with the parameters that they have now
+  std::vector<std::string> effects_off_;    ///< of them, by name, in the scene's order
+  bool recompose_ = false;  ///< the simulation does not have them yet: once a step, however many commands
   std::uint64_t study_number_ = 0;
   int frame_stride_ = 1;  ///< steps from one frame to the next
   int unseen_steps_ = 1;  ///< kUnseenTime

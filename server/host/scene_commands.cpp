@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/effect_tuning.h"
 #include "host/live_scene.h"
 #include "host/scene_messages.h"
 
@@ -208,26 +209,36 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&
   return json::object();
 }
 
+std::optional<Error> LiveScene::missing_effect(const std::string& effect) const {
+  const auto is_it = [&](const EffectDescription& each) { return name_of(each) == effect; };
+  if (std::any_of(effects_.begin(), effects_.end(), is_it)) return {};
+  return refused("unavailable", "/effect", "the scene has no effect \"" + effect + "\"");
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
-  std::vector<std::string> names;  // the scene's, each once
-  for (const EffectDescription& effect : scene_.simulation.effects) {
-    if (std::find(names.begin(), names.end(), name_of(effect)) == names.end()) {
-      names.emplace_back(name_of(effect));
-    }
+  if (const auto missing = missing_effect(set.effect)) return *missing;
+  if (is_off(set.effect) == !set.on) return json::object();
+  std::vector<std::string> off;  // each once, as the scene lists them
+  for (const EffectDescription& effect : effects_) {
+    const std::string name = name_of(effect);
+    const bool listed = std::find(off.begin(), off.end(), name) != off.end();
+    if (!listed && (name == set.effect ? !set.on : is_off(name))) off.push_back(name);
   }
-  if (std::find(names.begin(), names.end(), set.effect) == names.end()) {
-    return refused("unavailable", "/effect", "the scene has no effect \"" + set.effect + "\"");
-  }
-  const auto off = std::find(effects_off_.begin(), effects_off_.end(), set.effect);
-  if ((off == effects_off_.end()) == set.on) return json::object();
-  std::erase_if(names, [&](const std::string& name) {
-    const bool was_off = std::find(effects_off_.begin(), effects_off_.end(), name) != effects_off_.end();
-    return name == set.effect ? set.on : !was_off;
-  });
-  effects_off_ = std::move(names);
-  recompose();
+  effects_off_ = std::move(off);
+  effects_changed();
   tell_event("effect", takes_effect_,
              {{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}});
+  return json::object();
+}
+
+LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat&) {
+  if (const auto missing = missing_effect(tuning.effect)) return *missing;
+  const json before = parameters_json(effects_);
+  if (const auto error = tune(tuning, effects_)) return *error;
+  const json after = parameters_json(effects_);
+  if (after == before) return json::object();
+  if (!is_off(tuning.effect)) effects_changed();
+  tell_event("tune", takes_effect_, {{"effect", tuning.effect}, {"parameters", after[tuning.effect]}});
   return json::object();
 }
 
@@ -297,10 +308,13 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   simulation_.reset();
-  if (!effects_off_.empty()) {
+  const json own = parameters_json(scene_.simulation.effects);
+  if (!effects_off_.empty() || parameters_json(effects_) != own) {
+    effects_ = scene_.simulation.effects;
     effects_off_.clear();
-    recompose();
+    effects_changed();
   }
+  recompose_ = false;  // it is as its description has it
   for (Seat& seat : seats_) seat.grabs.clear();
   quality_.restarted();
   guard_ = {};
@@ -320,6 +334,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
               {"paused", paused_},
               {"wind", wind_json(simulation_.wind())},
               {"balls", balls_json(simulation_.colliders())},
+              {"parameters", own},
               {"pins", pins_json(simulation_.cloths())}});
   request_levels();
   return json::object();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth/contact/triangle_mesh.h"
+#include "host/effect_tuning.h"
 
 namespace weft::host {
 namespace {
@@ -164,6 +165,8 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
       {"dt", description.time_step},
       {"paused", state.paused},
       {"effects", effects_json(description)},
+      {"parameters", parameters_json(state.effects)},
+      {"tunable", tunable_json(state.effects)},
       {"wind", wind_json(simulation.wind())},
       {"balls", balls_json(simulation.colliders())},
       {"cloths", cloths_json(simulation)},

@@ -16,6 +16,7 @@ struct SceneState {
   std::uint32_t epoch = 1;
   bool paused = false;
   std::vector<std::string> effects_off;
+  std::vector<EffectDescription> effects;  ///< as they are now
 };
 
 nlohmann::json wind_json(const Wind& wind);

@@ -83,6 +83,8 @@ class Object {
   bool integer(const char* key, std::uint64_t& target, const Range& range);
   bool boolean(const char* key, bool& target);
   bool string(const char* key, std::string& target, std::size_t max_length);
+  /// An array of `count` numbers.
+  bool numbers(const char* key, double* target, std::size_t count, const Range& range);
   template <int count>
   bool vector(const char* key, Eigen::Matrix<double, count, 1>& target, const Range& range) {
     return numbers(key, target.data(), count, range);
@@ -113,7 +115,6 @@ class Object {
   void ignore_rest() { ignore_rest_ = true; }
 
  private:
-  bool numbers(const char* key, double* target, std::size_t count, const Range& range);
   const nlohmann::json* find_array(const char* key, std::size_t min, std::size_t max);
 
   const nlohmann::json* value_;  ///< nullptr if it is not an object

@@ -1,3 +1,6 @@
+#include <utility>
+
+#include "scene/effect_parameters.h"
 #include "scene/readers.h"
 
 namespace weft::scene {
@@ -47,92 +50,49 @@ Description read_implicit(Object& object) {
   return implicit;
 }
 
-/// "strength": one number, or along warp and weft.
-TearingEffect read_tearing(Object& object) {
-  constexpr Range kStrength{0.001, 1e9, "N/m"};
-  TearingEffect tearing;
-  const json* strength = object.find("strength");
-  if (strength != nullptr && strength->is_array()) {
-    Vec2 both(tearing.warp, tearing.weft);
-    if (object.vector("strength", both, kStrength)) tearing = {both.x(), both.y()};
-  } else if (object.number("strength", tearing.warp, kStrength)) {
-    tearing.weft = tearing.warp;
+/// The effect that the object's type names, with its own defaults.
+template <std::size_t... kIndex>
+std::optional<EffectDescription> read_type(Object& object, std::index_sequence<kIndex...>) {
+  const EffectDescription blank[] = {EffectDescription(std::in_place_index<kIndex>)...};
+  const int chosen = object.choice("type", {std::variant_alternative_t<kIndex, EffectDescription>::kName...});
+  if (chosen < 0) return {};
+  return blank[chosen];
+}
+
+/// Those of the effect's parameters that the object gives.
+void read_parameters(Object& object, EffectDescription& effect) {
+  for (const EffectParameter& parameter : parameters_of(effect)) {
+    const json* given = object.find(parameter.name);
+    std::vector<double> values(parameter.count);
+    if (parameter.takes_one() && (given == nullptr || !given->is_array())) {
+      if (!object.number(parameter.name, values[0], parameter.range)) continue;
+      values.assign(parameter.count, values[0]);
+    } else if (!object.numbers(parameter.name, values.data(), parameter.count, parameter.range)) {
+      continue;
+    }
+    parameter.write(effect, values);
   }
-  return tearing;
 }
 
 }  // namespace
 
 std::optional<EffectDescription> read_effect(const json& value, const std::string& path, Report& report) {
-  constexpr Range kAcceleration{-1e4, 1e4, "m/s2"};
-  constexpr Range kFactor{0, 1e6, "N at 1 m/s"};
-  constexpr Range kAirDensity{0, 1e4, "kg/m3"};
-  constexpr Range kCoefficient{0, 100};
-  constexpr Range kDampingTime{0, 10, "s"};
-  constexpr Range kThickness{1e-4, 1, "m"};
-  constexpr Range kFriction{0, 10};
-  constexpr Range kPressure{-1e6, 1e6, "Pa"};
-  constexpr Range kPressureOfGas{-1e5, 1e6, "Pa"};  // above a vacuum's
-  constexpr Range kVolume{1e-9, 1e9, "m3"};
-  constexpr Range kFillTime{0, 3600, "s"};
+  constexpr std::size_t kTypes = std::variant_size_v<EffectDescription>;
   Object object(value, path, report);
   object.require("type", "an effect's name");
-  switch (object.choice(
-      "type", {GravityEffect::kName, DampingEffect::kName, PaperWindEffect::kName, AerodynamicsEffect::kName,
-               StrainDampingEffect::kName, PlateBendingEffect::kName, StrainLimitEffect::kName,
-               ClothContactEffect::kName, InflationEffect::kName, TearingEffect::kName})) {
-    case 0: {
-      GravityEffect gravity;
-      object.vector("acceleration", gravity.acceleration, kAcceleration);
-      return gravity;
-    }
-    case 1:
-      return DampingEffect{};
-    case 2: {
-      PaperWindEffect wind;
-      object.number("factor", wind.factor, kFactor);
-      object.boolean("along_normal", wind.along_normal);
-      return wind;
-    }
-    case 3: {
-      AerodynamicsEffect aerodynamics;
-      object.number("air_density", aerodynamics.air_density, kAirDensity);
-      object.number("drag", aerodynamics.drag, kCoefficient);
-      double lift = 0;
-      if (object.number("lift", lift, kCoefficient)) aerodynamics.lift = lift;
-      return aerodynamics;
-    }
-    case 4: {
-      StrainDampingEffect damping;
-      object.number("time", damping.time, kDampingTime);
-      return damping;
-    }
-    case 5:
-      return PlateBendingEffect{};
-    case 6:
-      return StrainLimitEffect{};
-    case 7: {
-      ClothContactEffect contact;
-      object.number("thickness", contact.thickness, kThickness);
-      object.number("friction", contact.friction, kFriction);
-      return contact;
-    }
-    case 8: {
-      InflationEffect inflation;
-      double volume = 0;
-      if (object.number("volume", volume, kVolume)) inflation.volume = volume;
-      const bool shut_in = object.has("volume");
-      object.number("pressure", inflation.pressure, shut_in ? kPressureOfGas : kPressure);
-      if (object.number("fill_time", inflation.fill_time, kFillTime) && !shut_in)
-        object.problem("fill_time", "is given without volume; a pressure that is kept up is there at once");
-      return inflation;
-    }
-    case 9:
-      return read_tearing(object);
-    default:
-      object.ignore_rest();
-      return std::nullopt;
+  std::optional<EffectDescription> effect = read_type(object, std::make_index_sequence<kTypes>());
+  if (!effect) {
+    object.ignore_rest();
+    return effect;
   }
+  auto* inflation = std::get_if<InflationEffect>(&*effect);
+  if (inflation != nullptr && object.has("volume"))
+    inflation->volume = 0;  // of gas, which has other parameters
+  read_parameters(object, *effect);
+  if (inflation != nullptr && !inflation->volume && object.has("fill_time"))
+    object.problem("fill_time", "is given without volume; a pressure that is kept up is there at once");
+  if (auto* wind = std::get_if<PaperWindEffect>(&*effect)) object.boolean("along_normal", wind->along_normal);
+  return effect;
 }
 
 IntegratorDescription read_integrator(const json& value, const std::string& path, Report& report) {

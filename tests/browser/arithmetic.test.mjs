@@ -8,6 +8,7 @@ import {Morph} from '../../web/morph.js';
 import {addressOfScene, readSettings} from '../../web/settings.js';
 import {ThrowSpeed} from '../../web/throw_speed.js';
 import {Timeline} from '../../web/timeline.js';
+import {Tuner, kTuneMs, sliderSpan, unitText} from '../../web/tuning.js';
 import {anglesOf, directionOf} from '../../web/wind_angles.js';
 
 /** A flat hanging sheet of `cells` x `cells`, 1 m wide, its top left corner at the origin. */
@@ -290,4 +291,43 @@ test('the chart has times ascending, each kind in its column, and now', () => {
 test('numbers for people', () => {
   assert.deepEqual([0.00123, 0.1, 1, 0.0000123].map(percent), ['0.12 %', '10 %', '100 %', '0.0012 %']);
   assert.deepEqual([123.4, 0, 0.00001234].map(digits), ['120', '0', '1.2e-5']);
+});
+
+test('a slider reaches twice as far as the value, within the range, on round numbers', () => {
+  assert.deepEqual(sliderSpan([0, -9.81, 0], [-1e4, 1e4]), {min: -20, max: 20, step: 0.2});
+  assert.deepEqual(sliderSpan([1.2], [0, 100]), {min: 0, max: 5, step: 0.05});
+  assert.deepEqual(sliderSpan([0], [0, 100]), {min: 0, max: 1, step: 0.01});
+  assert.deepEqual(sliderSpan([80], [0, 100]), {min: 0, max: 100, step: 2});
+  assert.deepEqual(sliderSpan([0.005], [1e-4, 1]), {min: 0, max: 0.01, step: 0.0001});
+  assert.deepEqual(sliderSpan([1000, 500], [0.001, 1e9]), {min: 0, max: 2000, step: 20});
+  assert.deepEqual(sliderSpan([100], [-1e5, 1e6]), {min: -200, max: 200, step: 2});
+});
+
+test('units are written as people do', () => {
+  assert.equal(unitText('m/s2'), 'm/s²');
+  assert.equal(unitText('kg/m3'), 'kg/m³');
+  assert.equal(unitText('N at 1 m/s'), 'N at 1 m/s');
+  assert.equal(unitText(''), '');
+});
+
+test('while something is dragged the newest is sent, ten times a second at most, and the last of each in the end', (context) => {
+  context.mock.timers.enable({apis: ['setTimeout']});
+  const sent = [];
+  const tuner = new Tuner((effect, parameters) => sent.push([effect, parameters]));
+  for (let i = 0; i < 100; ++i) {  // a second of pointer moves
+    tuner.set('aerodynamics', 'drag', i);
+    context.mock.timers.tick(10);
+  }
+  assert.equal(kTuneMs, 100);
+  assert.ok(sent.length >= 9 && sent.length <= 11, `${sent.length} messages`);
+  assert.deepEqual(sent[0], ['aerodynamics', {drag: 0}]);
+  assert.deepEqual(sent.at(-1), ['aerodynamics', {drag: 99}]);
+  tuner.set('aerodynamics', 'lift', 1);
+  tuner.set('gravity', 'acceleration', [0, 1, 0]);
+  tuner.set('aerodynamics', 'drag', 7);
+  for (let i = 0; i < 100; ++i) context.mock.timers.tick(10);
+  assert.deepEqual(sent.slice(-2), [['aerodynamics', {lift: 1, drag: 7}], ['gravity', {acceleration: [0, 1, 0]}]]);
+  const before = sent.length;
+  for (let i = 0; i < 100; ++i) context.mock.timers.tick(10);
+  assert.equal(sent.length, before);
 });

@@ -136,6 +136,7 @@ test('each method sends its operation', async () => {
   await client.pin(0, 0.5, 1);
   await client.unpin(0, 0.5, 1);
   await client.setEffect('gravity', false);
+  await client.tuneEffect('gravity', { acceleration: [0, -1.62, 0] });
   await client.setWind([0, 0, -1], 3);
   await client.setWind([0, 0, -1], 3, { gusts: 0.25 });
   await client.setWind([0, 0, -1], 3, { turbulence: 0.5 });
@@ -164,6 +165,7 @@ test('each method sends its operation', async () => {
     { op: 'obstacle.grab', obstacle: 1, point: [0, 0.1, 0], position: [0, 1, 0], max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
     { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
     { op: 'effect.set', effect: 'gravity', on: false },
+    { op: 'effect.tune', effect: 'gravity', parameters: { acceleration: [0, -1.62, 0] } },
     { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 },
     { op: 'wind.set', direction: [0, 0, -1], speed: 3, turbulence: 0.5 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },

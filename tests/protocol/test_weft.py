@@ -182,6 +182,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.pin(0, 0.5, 1)
             await scene.unpin(0, 0.5, 1)
             await scene.set_effect("gravity", False)
+            await scene.tune_effect("aerodynamics", drag=0.5, lift=0)
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_wind([0, 0, -1], 3, gusts=0.25)
             await scene.set_wind([0, 0, -1], 3, turbulence=0.5)
@@ -213,6 +214,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "obstacle.grab", "obstacle": 1, "point": [0, 0.1, 0], "position": [0, 1, 0], "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
             {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
             {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "effect.set", "effect": "gravity", "on": False},
+            {"op": "effect.tune", "effect": "aerodynamics", "parameters": {"drag": 0.5, "lift": 0}},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "turbulence": 0.5},

@@ -486,6 +486,15 @@ export class WeftClient {
   }
 
   /**
+   * Changes parameters of one of the scene's effects, for all viewers.
+   * @param {string} effect one of the scene's `effects`
+   * @param {Object<string, number|number[]>} parameters those to change, SI units; `scene`'s `tunable` has their names and ranges
+   */
+  tuneEffect(effect, parameters) {
+    return this.send('effect.tune', { effect, parameters });
+  }
+
+  /**
    * @param {Vector} direction any length but zero @param {number} speed m/s
    * @param {{gusts?: number, turbulence?: number}} [change] how strong gusts and eddies are, 0 to 1: their root mean square over the speed, of eddies in each component; without it as they were
    */

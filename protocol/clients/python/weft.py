@@ -501,6 +501,11 @@ class Client:
         """Takes one of the scene's effects away, or brings it back, for all viewers."""
         return await self.send("effect.set", effect=effect, on=on)
 
+    async def tune_effect(self, effect: str, **parameters) -> dict:
+        """Changes parameters of one of the scene's effects, for all viewers: numbers or arrays, in SI units; `scene`'s
+        `tunable` has their names and ranges."""
+        return await self.send("effect.tune", effect=effect, parameters=parameters)
+
     async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None, turbulence: typing.Optional[float] = None) -> dict:
         """Direction of any length but zero; speed in m/s; gusts and turbulence from 0 to 1, their root mean square over the
         speed, of turbulence in each component (None: as they were)."""

@@ -1,0 +1,121 @@
+#include "host/effect_tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cloth/effects/effect.h"
+#include "protocol/member.h"
+#include "scene/effect_parameters.h"
+
+namespace weft::host {
+namespace {
+
+using nlohmann::json;
+using protocol::Bounds;
+using protocol::Numbers;
+using protocol::pointer_to;
+using scene::EffectParameter;
+
+/// As a client writes it: whole numbers without a fraction.
+json number_json(double number) {
+  constexpr double kExact = 1e15;
+  if (number == std::floor(number) && std::abs(number) < kExact) return static_cast<std::int64_t>(number);
+  return number;
+}
+
+json numbers_json(const Numbers& numbers) {
+  if (numbers.size() == 1) return number_json(numbers[0]);
+  json array = json::array();
+  for (const double number : numbers) array.push_back(number_json(number));
+  return array;
+}
+
+std::string kind_of(const EffectParameter& parameter, const Bounds& bounds) {
+  const std::string one = protocol::kind_of(double{}, bounds);
+  if (parameter.count == 1) return one;
+  const std::string array =
+      "an array of " + std::to_string(parameter.count) + " numbers " + protocol::range_text(bounds);
+  return parameter.one_for_all ? one + " or " + array : array;
+}
+
+protocol::Fault check(const EffectParameter& parameter, const std::string& path, const Numbers& numbers) {
+  const Bounds bounds{parameter.range.min, parameter.range.max, parameter.range.unit};
+  const bool one = numbers.size() == 1 && parameter.takes_one();
+  if (!one && numbers.size() != parameter.count)
+    return protocol::refuse("bad_type", path, numbers_json(numbers), kind_of(parameter, bounds));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] >= bounds.low && numbers[i] <= bounds.high) continue;
+    return protocol::refuse("range", one ? path : pointer_to(path, std::to_string(i)),
+                            number_json(numbers[i]), protocol::range_text(bounds));
+  }
+  return {};
+}
+
+/// "in aerodynamics only air_density, drag, lift".
+std::string known_in(const EffectDescription& effect) {
+  std::string names;
+  for (const EffectParameter& parameter : scene::parameters_of(effect))
+    names += (names.empty() ? " only " : ", ") + std::string(parameter.name);
+  return "in " + std::string(name_of(effect)) + (names.empty() ? " none" : names);
+}
+
+protocol::Fault tune_one(const protocol::EffectTune& command, EffectDescription& effect) {
+  const std::vector<EffectParameter>& known = scene::parameters_of(effect);
+  for (const auto& [name, numbers] : command.parameters) {
+    const std::string path = pointer_to("/parameters", name);
+    const auto parameter = std::find_if(known.begin(), known.end(),
+                                        [&](const EffectParameter& each) { return each.name == name; });
+    if (parameter == known.end())
+      return protocol::refuse("unknown_member", path, numbers_json(numbers), known_in(effect));
+    if (auto fault = check(*parameter, path, numbers)) return fault;
+    Numbers all = numbers;
+    all.resize(parameter->count, numbers[0]);
+    parameter->write(effect, all);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<protocol::Error> tune(const protocol::EffectTune& command,
+                                    std::vector<EffectDescription>& effects) {
+  std::vector<EffectDescription> tuned = effects;
+  for (EffectDescription& effect : tuned) {
+    if (name_of(effect) != command.effect) continue;
+    if (const auto fault = tune_one(command, effect))
+      return protocol::Error{std::nullopt, fault->code, fault->path, fault->message};
+  }
+  effects = std::move(tuned);
+  return {};
+}
+
+json parameters_json(const EffectDescription& effect) {
+  json parameters;
+  for (const EffectParameter& parameter : scene::parameters_of(effect))
+    parameters[parameter.name] = numbers_json(parameter.read(effect));
+  return parameters;
+}
+
+json parameters_json(const std::vector<EffectDescription>& effects) {
+  json all = json::object();
+  for (const EffectDescription& effect : effects) {
+    json parameters = parameters_json(effect);
+    if (!parameters.is_null()) all[name_of(effect)] = std::move(parameters);
+  }
+  return all;
+}
+
+json tunable_json(const std::vector<EffectDescription>& effects) {
+  json all = json::object();
+  for (const EffectDescription& effect : effects) {
+    for (const EffectParameter& parameter : scene::parameters_of(effect)) {
+      const scene::Range& range = parameter.range;
+      all[name_of(effect)][parameter.name] = {{"range", {number_json(range.min), number_json(range.max)}},
+                                              {"unit", range.unit}};
+    }
+  }
+  return all;
+}
+
+}  // namespace weft::host

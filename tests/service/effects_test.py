@@ -1,0 +1,100 @@
+"""effect.tune over the wire: what is tuned acts from the step that is told, all viewers are told, wrong values are refused."""
+import math
+import unittest
+
+from serving import GENEROUS, SCENES, Server
+
+import weft
+
+
+class Effects(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.server = Server(SCENES / "falling.json")
+        self.addCleanup(self.server.end)
+
+    async def connect(self):
+        """A client and the list of what it is told beside frames and replies."""
+        told = []
+        client = await weft.connect(self.server.url("falling"), on_message=told.append, timeout=GENEROUS)
+        self.addAsyncCleanup(client.close)
+        return client, told
+
+    async def height_at(self, scene, f):
+        """Of the cloth's centre at step f, once the scene stands there."""
+        frame = await scene.next_frame(lambda frame: frame.stamp.f == f)
+        return frame.cloths[0].at(8, 8)[1]
+
+    async def begin(self):
+        """A viewer of the scene at its start, which stands still."""
+        scene, told = await self.connect()
+        await scene.pause()
+        await scene.reset()
+        return scene, told
+
+    async def steps(self, scene, count):
+        return await self.height_at(scene, (await scene.step(count))["f"])
+
+    async def test_without_gravity_the_cloth_keeps_its_velocity(self):
+        scene, _ = await self.begin()
+        fallen = await self.steps(scene, 30)
+        ok = await scene.tune_effect("gravity", acceleration=[0, 0, 0])
+        self.assertEqual(ok["f"], 31)
+        # 9.81 m/s2 for 0.5 s, then evenly on: 4.905 m/s; 1 mm is for the lattice of the frames.
+        for _ in range(3):
+            further = await self.steps(scene, 30)
+            self.assertAlmostEqual(fallen - further, 4.905 * 0.5, delta=1e-3)
+            fallen = further
+
+    async def test_terminal_speed_goes_as_the_root_of_drag(self):
+        scene, _ = await self.begin()
+        await scene.tune_effect("aerodynamics", air_density=1.225)
+        for drag in (1.2, 4.8):
+            await scene.tune_effect("aerodynamics", drag=drag)
+            before = await self.steps(scene, 180)
+            after = await self.steps(scene, 60)
+            # T16: sqrt(2 rho g / (rho_air C_D)), face on.
+            self.assertAlmostEqual(before - after, math.sqrt(2 * 0.1 * 9.81 / (1.225 * drag)), delta=2e-3)
+
+    async def test_all_viewers_are_told_and_a_reset_brings_the_scenes_own_back(self):
+        scene, _ = await self.begin()
+        watcher, told = await self.connect()
+        own = scene.scene["parameters"]
+        self.assertEqual(own, {"gravity": {"acceleration": [0, -9.81, 0]},
+                               "aerodynamics": {"air_density": 0, "drag": 1.2, "lift": 1.2}})
+        self.assertEqual(scene.scene["tunable"]["gravity"], {"acceleration": {"range": [-10000, 10000], "unit": "m/s2"}})
+        await scene.tune_effect("aerodynamics", drag=0.5, lift=0)
+        await scene.step(1)
+        await watcher.next_frame(lambda frame: frame.stamp.f == 1)
+        event = next(message for message in told if message.get("kind") == "tune")
+        self.assertEqual((event["effect"], event["parameters"]), ("aerodynamics", {"air_density": 0, "drag": 0.5, "lift": 0}))
+        late, _ = await self.connect()
+        self.assertEqual(late.scene["parameters"]["aerodynamics"], event["parameters"])
+        await scene.reset()
+        await watcher.next_frame(lambda frame: frame.stamp.epoch == 3)
+        self.assertEqual(next(message for message in told if message.get("kind") == "reset")["parameters"], own)
+
+    async def test_wrong_values_are_refused(self):
+        scene, _ = await self.begin()
+        for effect, parameters, code, path in [
+                ("tearing", {"strength": 1}, "unavailable", "/effect"),
+                ("aerodynamics", {"drug": 1}, "unknown_member", "/parameters/drug"),
+                ("aerodynamics", {"drag": 101}, "range", "/parameters/drag"),
+                ("aerodynamics", {"drag": "much"}, "bad_type", "/parameters/drag"),
+                ("gravity", {"acceleration": [0, 1]}, "bad_type", "/parameters/acceleration"),
+                ("gravity", {}, "range", "/parameters")]:
+            with self.subTest(effect=effect, parameters=parameters):
+                with self.assertRaises(weft.WeftError) as refused:
+                    await scene.tune_effect(effect, **parameters)
+                self.assertEqual((refused.exception.code, refused.exception.path), (code, path))
+
+    async def test_counts_towards_the_rate(self):
+        scene, _ = await self.begin()
+        with self.assertRaises(weft.WeftError) as refused:
+            for i in range(1000):
+                await scene.tune_effect("aerodynamics", drag=i % 2)
+            self.skipTest("this machine does not get to 120 round trips a second")
+        self.assertEqual(refused.exception.code, "rate")
+
+
+if __name__ == "__main__":
+    unittest.main()
