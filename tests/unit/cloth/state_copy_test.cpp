@@ -305,17 +305,6 @@ TEST(StateCopy, KeepsWhatTheGuardDoes) {
   EXPECT_TRUE(copy.cloths()[0].steps_as_asked());
 }
 
-TEST(StateCopy, KeepsWhatIsAskedForInTheNextStep) {
-  Simulation<float> original(busy_scene());
-  original.step();
-  original.request_level(0, 5);
-  Simulation<float> copy = copy_of(original);
-  original.step();
-  copy.step();
-  EXPECT_EQ(copy.cloths()[0].level(), 5);
-  EXPECT_EQ(state_hash(copy), state_hash(original));
-}
-
 /// Something of all effects that leave a state of their own, by a method that remembers nothing.
 std::vector<SimulationDescription> owning_scenes() {
   const SymplecticEulerDescription euler;
