@@ -22,7 +22,7 @@ test('each effect of the scene has a switch with a plain label, and all are on',
 test('without gravity the cloth rises: its springs draw it up again; the other viewer sees the switch', async () => {
   await until(page, () => weft.stats.server?.cloths[0].state === 'asleep');
   const hung = await page.evaluate(height);
-  await page.getByLabel('Gravity', {exact: true}).uncheck();
+  await page.getByRole('checkbox', {name: 'Gravity'}).uncheck();
   await until(other, () => weft.stats.effectsOff.includes('gravity'));
   assert.deepEqual(await checked(other), {gravity: false, damping: true});
   // Hung, 1 m of 0.1 kg/m2 at 100 N/m is longer by rho g H / (2 Y) = 4.9 mm; its centre hangs by two thirds of that lower.
@@ -33,7 +33,7 @@ test('a viewer who comes later sees it too, and may switch it on again', async (
   await other.reload();
   await until(other, () => weft.stats.connected && weft.stats.cloths.length > 0);
   assert.deepEqual(await checked(other), {gravity: false, damping: true});
-  await other.getByLabel('Gravity', {exact: true}).check();
+  await other.getByRole('checkbox', {name: 'Gravity'}).check();
   await until(page, () => weft.stats.effectsOff.length === 0);
   assert.deepEqual(await checked(page), {gravity: true, damping: true});
 });

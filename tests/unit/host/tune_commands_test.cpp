@@ -36,6 +36,7 @@ class TuneCommands : public LiveSceneTest {
 };
 
 TEST_F(TuneCommands, ASceneTellsItsParametersAndWhatTheyMayBe) {
+  drain();
   const json scene = other.last("scene");
   EXPECT_EQ(scene.at("parameters"), json::parse(R"({
     "gravity": {"acceleration": [0, -9.81, 0]},
