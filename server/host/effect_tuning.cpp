@@ -32,7 +32,7 @@ json numbers_json(const Numbers& numbers) {
 }
 
 std::string kind_of(const EffectParameter& parameter, const Bounds& bounds) {
-  const std::string one = protocol::kind_of(double{}, bounds);
+  std::string one = protocol::kind_of(double{}, bounds);
   if (parameter.count == 1) return one;
   const std::string array =
       "an array of " + std::to_string(parameter.count) + " numbers " + protocol::range_text(bounds);
@@ -64,8 +64,9 @@ protocol::Fault tune_one(const protocol::EffectTune& command, EffectDescription&
   const std::vector<EffectParameter>& known = scene::parameters_of(effect);
   for (const auto& [name, numbers] : command.parameters) {
     const std::string path = pointer_to("/parameters", name);
-    const auto parameter = std::find_if(known.begin(), known.end(),
-                                        [&](const EffectParameter& each) { return each.name == name; });
+    const auto parameter =
+        std::find_if(known.begin(), known.end(),
+                     [&wanted = name](const EffectParameter& each) { return each.name == wanted; });
     if (parameter == known.end())
       return protocol::refuse("unknown_member", path, numbers_json(numbers), known_in(effect));
     if (auto fault = check(*parameter, path, numbers)) return fault;

@@ -89,7 +89,7 @@ bool surely_holds(const Springs<Real>& springs, const VectorField<Real>& positio
                   const TearingEffect& tearing) {
   if (springs.torn() != nullptr) return false;
   const Family<Real> along_u(springs, 0, 1), along_v(springs, 1, 0), falling(springs, 1, 1);
-  if (along_u.family == nullptr) return true;
+  if (along_u.family == nullptr || along_v.family == nullptr) return true;
   // With all springs longer by the strain e a link bears at most e times this, a share of its strength: its
   // own force and, all in its direction, four halves of a diagonal's.
   const auto force = [](const SpringFamily* family) {
