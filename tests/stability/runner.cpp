@@ -23,7 +23,7 @@ constexpr double kJitter = 1e-5;      ///< of the size
 /// substeps: more are the same ones again (S12 makes 7.3 million with symplectic Euler, S1a 4.8). The release
 /// build, whose affair the figures are, makes all.
 #ifdef __SANITIZE_ADDRESS__
-constexpr long kMostSubsteps = 200000;
+constexpr long kMostSubsteps = 50000;
 #else
 constexpr long kMostSubsteps = std::numeric_limits<long>::max();
 #endif
