@@ -303,10 +303,9 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
   for (;;) {
-    for (int left = unsettled_ == Unsettled::no ? 0 : rounds_of(unsettled_); left > 0; --left) {
+    if (unsettled_ != Unsettled::no) {
       settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
-             solids.empty() ? nullptr : &contact(), solids, dt);
-      if (elastic_energy() <= held_) break;
+             solids.empty() ? nullptr : &contact(), solids, dt, held_);
     }
     const Rung rung = guard_.rung();
     AdvanceReport report = attempt(air, time, dt);

@@ -10,7 +10,7 @@ enum class Unsettled {
   /// in solids too: for methods that would turn that into motion.
   by_level,
   /// The same where springs and plate hold more than they did at the level left, for methods that find their
-  /// balance by themselves: steps end when they hold no more.
+  /// balance by themselves, but would make that motion.
   by_gain,
   /// A solid was put onto nodes: a ball of twice the size in a drape has a fifth of a metre to lift them, and
   /// a step that did so would send the hem off at 25 m/s.
@@ -21,9 +21,6 @@ enum class Unsettled {
   by_gas,
 };
 
-/// How often to settle at most while springs hold more than they did.
-inline int rounds_of(Unsettled by) { return by == Unsettled::by_gain ? 4 : 1; }
-
 /// Whether a solid has just been put onto free nodes, as all are when the step begins.
 template <class Real>
 bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& solids);
@@ -33,9 +30,12 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 /// stay as they were. Each lasts as long as a wave of stretch takes to run across the sheet, sqrt(density /
 /// structural) times its size (`longest`, s, at most): what is stretched evens out, folds keep their shape.
 ///
+/// There are no more of them once springs and plate hold no more than `enough`, J, which is only asked
+/// by_gain.
+///
 /// Nothing happens if no relaxed state is found.
 template <class Real>
 void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
-            const std::vector<Solid>& solids, double longest);
+            const std::vector<Solid>& solids, double longest, double enough = 0);
 
 }  // namespace weft

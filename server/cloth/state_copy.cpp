@@ -65,6 +65,7 @@ void Cloth<Real>::take_state(const Cloth& other) {
   level_ = other.level_;
   pending_level_ = other.pending_level_;
   unsettled_ = other.unsettled_;
+  held_ = other.held_;
   begins_ = other.begins_;
   particles_ = other.particles_;
   time_ = other.time_;

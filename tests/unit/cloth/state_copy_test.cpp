@@ -35,6 +35,7 @@ struct CopyCase {
   SimulationDescription scene;
   int steps;
   std::function<void(Simulation<float>&, int)> act = [](Simulation<float>&, int) {};
+  std::function<void(Simulation<float>&)> wish = [](Simulation<float>&) {};  ///< said before it is copied
 };
 
 std::ostream& operator<<(std::ostream& out, const CopyCase& each) { return out << each.name; }
@@ -188,6 +189,9 @@ std::vector<CopyCase> copy_cases() {
         if (step == 10) s.request_level(0, 3);
         if (step == 19) s.request_level(0, 4);
       });
+  // The copy is made between the wish and the step that fulfils it.
+  add("split_is_wished", busy_scene(), 20);
+  cases.back().wish = [](Simulation<float>& s) { s.request_level(0, 5); };
   add("torn_and_split", tearing_scene(Bdf2Description{}, true), 20, [](Simulation<float>& s, int step) {
     if (step == 15) s.request_level(0, 5);
   });
@@ -247,6 +251,7 @@ TEST_P(StateCopies, GoesOnAsItsOriginal) {
     simulation.step();
   };
   for (int i = 0; i < each.steps; ++i) step(original, i);
+  each.wish(original);
   Simulation<float> copy = copy_of(original);
   EXPECT_EQ(state_hash(copy), state_hash(original));
   expect_same_reports(copy, original);
