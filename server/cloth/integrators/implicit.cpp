@@ -1,7 +1,6 @@
 #include "cloth/integrators/implicit.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "cloth/clock.h"
 #include "cloth/solver/node_vector.h"
@@ -9,47 +8,11 @@
 namespace weft {
 namespace {
 
-/// Newton iterations added at most when those asked for are rough or bring in energy: half a turn a frame
-/// takes one, a crumpled sheet all.
-constexpr int kSpareIterations = 8, kMoreIterations = 3;
-/// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
-/// not. Near rest none may be off by more than a solve.
-constexpr double kRough = 0.2;
-/// Where a sheet that meets itself lies on something: what a linearisation misses there heaps fold up with. A
-/// square that falls on its edge rose by up to 0.03 J of the 0.54 that it has, in eight falls at two levels.
-constexpr double kRoughHeap = 0.02;
-/// Further rounds in which a heap's nodes that the last iteration has put into a solid are held. Without,
-/// what puts them out of it brings in up to 0.006 J there. (A sheet alone shot off a fast ball at 11 m/s with
-/// them.)
-constexpr int kHeapRounds = 4;
-/// Nor is one off by more than so many nodes' share of that energy in a single spring: a fold that runs
-/// through a stiff sheet would stretch the few springs in it far beyond their strain. A curtain, a flag or a
-/// drape stays below 2; a cushion blown up at one blow does not, and takes a tenth more iterations meanwhile.
-constexpr double kRoughSpring = 8;
-/// Spare iterations that take whole changes. Those after them are searched, as Newton's method then runs to
-/// and fro between states that each linearisation misjudges: unsearched, a ribbon with cells of 1 : 100 is
-/// left with a spring stretched by 31 %. Not in contact, which the search does not know.
-constexpr int kWholeSpareIterations = 4;
-/// A shorter share of a change is none.
-constexpr double kSmallestShare = 1e-4;
-/// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
-constexpr double kMissedShare = 1e-3;
-
-/// Of energies that are added up and taken from each other, in units of the scalar's last digit: what cannot
-/// be told from a gain is none that may be taken. A flat sheet of 0.3 m and 6e5 N/m at rest had 5 J after a
-/// second, of forces that are nothing but rounding: the first change stretches it by metres.
-constexpr double kRounding = 4;
-
 template <class Real>
 void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
   std::copy_n(from.x, count, to.x);
   std::copy_n(from.y, count, to.y);
   std::copy_n(from.z, count, to.z);
-}
-
-template <class Real>
-void clear(kernels::Components<Real> field, std::size_t count) {
-  for (Real* component : {field.x, field.y, field.z}) std::fill_n(component, count, Real(0));
 }
 
 template <class Real>
@@ -252,143 +215,6 @@ void Implicit<Real>::guess_move(double h) {
   s.system.bodies().reset();
   kernels::scaled_difference<Real>(kernels::components(s.start_velocity), s.move, static_cast<Real>(h),
                                    s.change, count);
-}
-
-template <class Real>
-auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change)
-    -> NewtonReport {
-  State& s = *state_;
-  const std::size_t count = particles.grid().size();
-  NewtonReport report;
-  const bool heap = forces.layered && !memory_->contacts.empty();
-  int heap_rounds = 0;
-  for (int left = parameters_.newton_iterations; left > -kSpareIterations; --left) {
-    assemble(particles, forces);
-    const LinearSolveReport solved =
-        s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
-    s.target = {.least = solved.target};
-    const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
-    s.motion.found(decrease);
-    const bool stray =
-        left <= -kWholeSpareIterations && memory_->contacts.empty() && forces.layers == nullptr;
-    const ChangeReport changed =
-        stray ? searched_change(forces, decrease) : (this->*change)(forces, decrease);
-    s.system.bodies().take_changes();
-    kernels::move_nodes<Real>(
-        s.step,
-        {s.system.finest().free(), kernels::components(s.start), s.change, s.move,
-         kernels::components(particles.position), kernels::components(particles.velocity)},
-        count);
-    clear(s.change, count);
-    report.linear_iterations += solved.iterations;
-    report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
-    const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
-    report.found = report.found || (solved.finite && found);
-    double error = changed.error, pulling = 0;
-    if (!memory_->contacts.empty()) pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
-    if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
-    error = std::max(error, pulling);
-    const double motion = s.kept_stiffness * s.motion.energy();
-    const bool rough = changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * motion;
-    const bool fine = left > 1 || rough || s.motion.fine();
-    const double allowed =
-        fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
-    const bool done = report.brought_in <= 0 && error <= allowed;
-    const bool last = left <= 1 - kSpareIterations;
-    if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;
-    if (!forces.layered) break;
-    const bool meet = forces.layers != nullptr && hold_meeting(particles, *forces.layers);
-    const bool enter =
-        heap && heap_rounds++ < kHeapRounds && hold_inside(particles, *forces.springs, allowed);
-    if (!meet && !enter) break;
-    left = std::max(left, kMoreIterations - kSpareIterations);
-  }
-  return report;
-}
-
-template <class Real>
-bool Implicit<Real>::let_go(const Particles<Real>& particles) {
-  State& s = *state_;
-  return !memory_->contacts.empty() &&
-         memory_->contacts.let_go_of_slid_off(particles, *surroundings_.solids, s.move, s.system.bodies());
-}
-
-template <class Real>
-bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs<Real>& springs,
-                                 double missed) {
-  const auto& [contact, solids, part] = surroundings_;
-  if (contact == nullptr) return false;
-  State& s = *state_;
-  AttachedBodies<Real>& bodies = s.system.bodies();
-  const std::vector<Solid> bent =
-      bodies.empty() ? std::vector<Solid>{} : memory_->contacts.bent(*solids, bodies);
-  const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
-  if (!memory_->contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
-                                     springs.node_stiffness(), missed))
-    return false;
-  memory_->contacts.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
-  begin_formula(s.h);
-  return true;
-}
-
-template <class Real>
-bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
-  State& s = *state_;
-  if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
-  layers.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
-  begin_formula(s.h);
-  return true;
-}
-
-template <class Real>
-void Implicit<Real>::scale_change(double share) {
-  State& s = *state_;
-  for (Real* component : {s.change.x, s.change.y, s.change.z}) {
-    std::transform(component, component + s.system.grid().size(), component,
-                   [part = static_cast<Real>(share)](Real x) { return part * x; });
-  }
-  s.system.bodies().scale_changes(share);
-}
-
-template <class Real>
-auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
-  State& s = *state_;
-  s.one_sided.clear();
-  if (!memory_->contacts.empty())
-    memory_->contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
-  if (forces.layers != nullptr) forces.layers->append_springs(s.move, s.change, s.one_sided);
-  const double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
-  if (share < 1) scale_change(share);
-  const double left_over = (1 - share) * (1 - share) * decrease;
-  const ChangeReport report = model_change(forces, decrease - left_over);
-  return {report.brought_in, std::max(report.error, left_over), report.largest};
-}
-
-template <class Real>
-auto Implicit<Real>::model_change(const Forces<Real>& forces, double decrease) const -> ChangeReport {
-  kernels::SpringModelError error =
-      forces.springs->model_error(state_->system.grid(), state_->position, state_->change);
-  if (forces.gas != nullptr) {
-    const double gas = forces.gas->model_error(state_->position, state_->change);
-    error.sum += gas;
-    error.magnitude += std::abs(gas);
-  }
-  const double rounding = kRounding * double(std::numeric_limits<Real>::epsilon());
-  return {error.sum - decrease + rounding * (error.magnitude + decrease), error.magnitude, error.largest};
-}
-
-template <class Real>
-auto Implicit<Real>::searched_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
-  const kernels::Components<Real> change = state_->change;
-  for (double share = 1; share > kSmallestShare; share /= 2) {
-    // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = model_change(forces, share * (2 - share) * decrease);
-    if (report.brought_in <= 0) return report;
-    scale_change(0.5);
-  }
-  clear(change, state_->system.grid().size());
-  state_->system.bodies().scale_changes(0);
-  return {0, 0, 0, false};
 }
 
 template <class Real>

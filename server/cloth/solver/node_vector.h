@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "cloth/kernels/components.h"
 #include "cloth/vec3.h"
 
@@ -24,6 +26,12 @@ void add(const kernels::Components<Real>& field, std::size_t node, const Vec3& v
   field.x[node] += static_cast<Real>(value.x());
   field.y[node] += static_cast<Real>(value.y());
   field.z[node] += static_cast<Real>(value.z());
+}
+
+/// field[node] = 0 for the first `count` nodes.
+template <class Real>
+void clear(const kernels::Components<Real>& field, std::size_t count) {
+  for (Real* component : {field.x, field.y, field.z}) std::fill_n(component, count, Real(0));
 }
 
 }  // namespace weft
