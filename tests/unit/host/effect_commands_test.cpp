@@ -1,6 +1,5 @@
 // effect.set: effects of a live scene taken away and brought back, and who is told.
 #include "choices.h"
-#include "cloth/state_hash.h"
 #include "live_scene_test.h"
 
 namespace weft::host::test {
@@ -11,9 +10,6 @@ using protocol::EffectSet;
 class EffectCommands : public LiveSceneTest {
  protected:
   EffectCommands() : LiveSceneTest(hung_cloth()) {}
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) live.step();
-  }
   std::vector<std::string> studied() const {
     std::vector<std::string> names;
     for (const EffectDescription& effect : live.studied().effects) names.emplace_back(name_of(effect));
@@ -37,11 +33,9 @@ TEST_F(EffectCommands, AreToldToAllAndTakeEffectInTheNextStep) {
   EXPECT_EQ(studied(), (Names{"gravity", "damping"}));
   command(EffectSet{"gravity", false});
   EXPECT_EQ(other.last("event", "effect").at("effects_off"), json({"gravity", "paper_wind"}));  // as listed
-  Reader late;
-  live.add_viewer(late.viewer, late.viewer->enter());
-  late.drain();
-  EXPECT_EQ(late.last("scene").at("effects_off"), json({"gravity", "paper_wind"}));
-  EXPECT_EQ(late.last("scene").at("effects"), json({"gravity", "damping", "paper_wind"}));
+  const json late = scene_now();
+  EXPECT_EQ(late.at("effects_off"), json({"gravity", "paper_wind"}));
+  EXPECT_EQ(late.at("effects"), json({"gravity", "damping", "paper_wind"}));
   command(EffectSet{"paper_wind", true});
   EXPECT_EQ(other.last("event", "effect").at("on"), true);
   EXPECT_EQ(other.last("event", "effect").at("effects_off"), json({"gravity"}));
@@ -53,48 +47,23 @@ TEST_F(EffectCommands, OfOthersAreRefusedAndOfTheSameChangeNothing) {
   EXPECT_EQ(error.at("code"), "unavailable");
   EXPECT_EQ(error.at("path"), "/effect");
   EXPECT_EQ(error.at("message"), "the scene has no effect \"aerodynamics\"");
-  LiveScene untouched(hung_cloth(), protocol::Limits{});
-  Reader alone;
-  untouched.add_viewer(alone.viewer, alone.viewer->enter());
-  for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(command(EffectSet{"gravity", true}).at("op"), "ok");
-    live.step();
-    untouched.step();
-  }
-  EXPECT_EQ(state_hash(live.simulation()), state_hash(untouched.simulation()));
+  expect_steps_as(hung_cloth(), [&] { EXPECT_EQ(command(EffectSet{"gravity", true}).at("op"), "ok"); });
   EXPECT_TRUE(other.last("event", "effect").is_null());
 }
 
 TEST_F(EffectCommands, AreSteppedAsASceneThatDoesNotListThem) {
   scene::Scene less = hung_cloth();
   less.simulation.effects = {GravityEffect{}, PaperWindEffect{}};
-  LiveScene listed(less, protocol::Limits{});
-  Reader alone;
-  listed.add_viewer(alone.viewer, alone.viewer->enter());
   command(EffectSet{"damping", false});
-  for (int i = 0; i < 30; ++i) {
-    live.step();
-    listed.step();
-    ASSERT_EQ(state_hash(live.simulation()), state_hash(listed.simulation())) << i;
-  }
+  expect_steps_as(less);
 }
 
 TEST_F(EffectCommands, AResetBringsAllBack) {
   command(EffectSet{"gravity", false});
   steps(10);
   command(protocol::Reset{});
-  Reader late;
-  live.add_viewer(late.viewer, late.viewer->enter());
-  late.drain();
-  EXPECT_FALSE(late.last("scene").contains("effects_off"));
-  LiveScene fresh(hung_cloth(), protocol::Limits{});
-  Reader alone;
-  fresh.add_viewer(alone.viewer, alone.viewer->enter());
-  for (int i = 0; i < 20; ++i) {
-    live.step();
-    fresh.step();
-  }
-  EXPECT_EQ(state_hash(live.simulation()), state_hash(fresh.simulation()));
+  EXPECT_FALSE(scene_now().contains("effects_off"));
+  expect_steps_as(hung_cloth());
 }
 
 TEST_F(EffectCommands, MakeAStudyOutOfDate) {

@@ -1,5 +1,8 @@
 #pragma once
 /// A live scene on the test's thread, with two viewers in it.
+#include <functional>
+
+#include "cloth/state_hash.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 
@@ -23,6 +26,29 @@ class LiveSceneTest : public ::testing::Test {
   void drain() {
     reader.drain();
     other.drain();
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) live.step();
+  }
+  /// What a viewer who comes now is told.
+  json scene_now() {
+    Reader late;
+    live.add_viewer(late.viewer, late.viewer->enter());
+    late.drain();
+    return late.last("scene");
+  }
+  /// Steps on as one that begins with `scene` does, to the bit, whatever is said before its steps.
+  void expect_steps_as(
+      const scene::Scene& scene, const std::function<void()>& before_step = [] {}) {
+    LiveScene fresh(scene, protocol::Limits{});
+    Reader alone;
+    fresh.add_viewer(alone.viewer, alone.viewer->enter());
+    for (int i = 0; i < 30; ++i) {
+      before_step();
+      live.step();
+      fresh.step();
+      ASSERT_EQ(state_hash(live.simulation()), state_hash(fresh.simulation())) << "after step " << i;
+    }
   }
 
   LiveScene live;

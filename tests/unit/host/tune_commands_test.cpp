@@ -1,5 +1,4 @@
 // effect.tune: parameters of a live scene's effects changed, and who is told.
-#include "cloth/state_hash.h"
 #include "live_scene_test.h"
 
 namespace weft::host::test {
@@ -17,16 +16,6 @@ scene::Scene windy_cloth() {
 class TuneCommands : public LiveSceneTest {
  protected:
   TuneCommands() : LiveSceneTest(windy_cloth()) {}
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) live.step();
-  }
-  /// What a viewer who comes now is told.
-  json scene_now() {
-    Reader late;
-    live.add_viewer(late.viewer, late.viewer->enter());
-    late.drain();
-    return late.last("scene");
-  }
   void expect_refused(const EffectTune& tuning, const char* code, const char* path, const char* message) {
     const json error = command(tuning);
     EXPECT_EQ(error.value("code", ""), code) << error;
@@ -102,34 +91,19 @@ TEST_F(TuneCommands, ThatAreWrongSayWhatIsAllowedAndChangeNothing) {
 }
 
 TEST_F(TuneCommands, ToTheSameChangeNothing) {
-  LiveScene untouched(windy_cloth(), protocol::Limits{});
-  Reader alone;
-  untouched.add_viewer(alone.viewer, alone.viewer->enter());
-  for (int i = 0; i < 10; ++i) {
+  expect_steps_as(windy_cloth(), [&] {
     EXPECT_EQ(command(EffectTune{"aerodynamics", {{"drag", {1.2}}}}).at("op"), "ok");
-    live.step();
-    untouched.step();
-  }
-  EXPECT_EQ(state_hash(live.simulation()), state_hash(untouched.simulation()));
+  });
   EXPECT_TRUE(other.last("event", "tune").is_null());
 }
 
 TEST_F(TuneCommands, ManyBeforeAStepComposeTheSceneOnce) {
   for (int i = 1; i <= 50; ++i) command(EffectTune{"gravity", {{"acceleration", {0, -0.1 * i, 0}}}});
   EXPECT_EQ(live.simulation().gravity().y(), -9.81);  // not yet
-  live.step();
-  EXPECT_EQ(live.simulation().gravity().y(), -0.1 * 50);
   scene::Scene weak = windy_cloth();
   weak.simulation.effects[0] = GravityEffect{{0, -0.1 * 50, 0}};
-  LiveScene listed(weak, protocol::Limits{});
-  Reader alone;
-  listed.add_viewer(alone.viewer, alone.viewer->enter());
-  listed.step();
-  for (int i = 0; i < 20; ++i) {
-    live.step();
-    listed.step();
-  }
-  EXPECT_EQ(state_hash(live.simulation()), state_hash(listed.simulation()));
+  expect_steps_as(weak);
+  EXPECT_EQ(live.simulation().gravity().y(), -0.1 * 50);
 }
 
 TEST_F(TuneCommands, WhileItIsAwayAreKeptForWhenItComesBack) {
@@ -152,14 +126,7 @@ TEST_F(TuneCommands, AResetBringsTheScenesOwnBack) {
   const json own = other.last("scene").at("parameters");
   EXPECT_EQ(other.last("event", "reset").at("parameters"), own);
   EXPECT_EQ(scene_now().at("parameters"), own);
-  LiveScene fresh(windy_cloth(), protocol::Limits{});
-  Reader alone;
-  fresh.add_viewer(alone.viewer, alone.viewer->enter());
-  for (int i = 0; i < 20; ++i) {
-    live.step();
-    fresh.step();
-  }
-  EXPECT_EQ(state_hash(live.simulation()), state_hash(fresh.simulation()));
+  expect_steps_as(windy_cloth());
 }
 
 TEST_F(TuneCommands, MakeAStudyOutOfDate) {
