@@ -25,7 +25,8 @@ int substeps(const XpbdDescription& description, double dt);
 ///
 /// Where a plate's stiffest modes turn within a substep (w h > 2) the springs' damping time is at most the
 /// substep: the plate's projection, made without regard to the springs', leaves them a rate of length in
-/// every substep that a longer one answers with ever larger multipliers (a flat sheet of 8 cm had 1e7 J).
+/// every substep that a longer one answers with ever larger multipliers (a flat sheet of half a metre had
+/// 1e10 J).
 ///
 /// A sheet in violent motion has up to 4 times the substeps (substep_refinement.h).
 ///

@@ -19,7 +19,7 @@ constexpr float kSoft = 50, kStiff = 5000;
 /// eight times its work put in by the net, and with them a fifteenth.
 constexpr int kMostRounds = 4;
 constexpr double kPairsInSight = 1.5, kMeetingPart = 0.4;
-/// Pairs that a node, or an edge that begins at it, is held in, a round: beyond it is held already.
+/// Pairs in which a node, or the edges that begin at it, are held anew in a round: a bound on memory.
 constexpr std::uint8_t kMostOfNode = 128;
 /// By how much it changes in a step, and the parts of the gap above and below which it does.
 constexpr float kStiffer = 4, kSofter = 0.7F;

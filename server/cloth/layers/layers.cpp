@@ -27,13 +27,14 @@ double half_a_cell(const ClothDescription& cloth, const Grid& grid) {
 }
 
 /// What goes on in the next step of an acceleration: no more than a weight presses with. A floor's blow does
-/// not: taken for lasting, it threw up a sheet that lay on the one that was stopped by half a metre.
+/// not: taken for lasting, it threw two sheets that fell half a metre together up by 17 m (backward Euler)
+/// and 135 m (BDF2).
 Vec3 lasting(const Vec3& acceleration) {
   const double most = standard_gravity().norm(), size = acceleration.norm();
   return size > most ? Vec3(most / size * acceleration) : acceleration;
 }
 
-/// Pairs of edges that are held, of those that begin at one node: beyond they are held already.
+/// Pairs of edges that are held, of those that begin at one node: a bound on memory.
 constexpr std::uint16_t kMostEdges = 128;
 
 }  // namespace

@@ -24,7 +24,7 @@ struct SolveTarget {
 /// it did from one to the next of the last three where it fell less (after Strakos and Tichy, On Error
 /// Estimation in the Conjugate Gradient Method, 2002, who wait some iterations to know instead). What one
 /// iteration finds is the error before it only where each leaves little to the next: with springs of 1e7 N/m
-/// it was up to 31 times too small.
+/// it was up to 30 times too small.
 class ErrorEstimate {
  public:
   /// An iteration found `progress`, J: lowered the squared error by it.

@@ -131,15 +131,16 @@ TEST(FeatureSearch, FindsAllThatIsNearInAFoldAndNothingInAFlatSheet) {
   EXPECT_EQ(search.cell_pairs(), 0u);
 }
 
-// Where all is near all, 4,096 cells are 8.4 million pairs of cells with some forty pairs of features each.
-// Between the two layers of a fold a cell finds 23.
+// Where all is near all, 4,096 cells are 8.4 million pairs of cells with 13 pairs of features
+// each: a node of either with two triangles of the other, and three edges with three. In a fold of two layers
+// cells find 23 each (measured), far below their bound.
 TEST(FeatureSearch, FindsNoMoreThanItsBounds) {
   const Grid grid = Grid::with_nodes(65, 65);
   LayerNodes heap = folded(grid);
   FeatureSearch search;
   search.set_grids({grid});
   const std::size_t ordinary = search.find(heap, 0.005).size();
-  EXPECT_LT(ordinary, FeatureSearch::kMostOfCell / 40 * 64 * 64);
+  EXPECT_LT(ordinary, FeatureSearch::kMostOfCell / 10 * 64 * 64);
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> value(-1e-3, 1e-3);
   for (Vec3& x : heap.start) x = {value(random), value(random), value(random)};
