@@ -1,6 +1,6 @@
-"""An effect that a scene does not call for costs nothing: none of its functions is ever entered.
+"""What a scene does not call for costs nothing: none of its functions is ever entered.
 
-Each effect's scene is run under callgrind with it and without it. With it its class is entered, which shows that the test would see
+Each effect's or other part's scene is run under callgrind with it and without it. With it its class is entered, which shows that the test would see
 it; without it neither the class nor a kernel of its own is.
 """
 import json
@@ -30,12 +30,23 @@ EFFECTS = {
     "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
 }
 
+BALL = {"type": "ball", "position": [0, -0.2, 0.05], "radius": 0.1}
+FLOOR = {"type": "plane", "position": [0, -0.35, 0]}
+RING = {"type": "mesh", "position": [0, 0, -0.1], "lathe": {"outline": [[0, -0.1], [0.1, 0], [0, 0.1]], "sides": 8}}
+# Part of a scene: functions that are entered with it and never without it. The parts of a group are in one scene.
+PARTS = [
+    {"seam": [r"weft::Seam<\w+>::"], "gas": [r"weft::Gas<\w+>::"], "moving pins": [r"weft::Pins<\w+>::(begin_step|carry)", "weft::along_path"]},
+    {"mesh": [r"weft::(TriangleMesh|TriangleOctree)::", r"weft::closed_surface\("],
+     "bodies": ["weft::BodyCollision::", r"weft::resolve\("],
+     "wind zones": [r"kernels::blend_zone.*clone", "weft::NodeAir::"]},
+]
 
-def functions_entered(effects, folder, colliders=(), wind=None):
+
+def functions_entered(effects, folder, colliders=(), wind=None, cloth=None):
     """Names of all functions entered while a small hung sheet is stepped 12 times with these effects."""
     scene = {"title": "hung", "effects": effects, "integrator": {"type": "bdf2"},
              "colliders": list(colliders),
-             "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4}}]}
+             "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4}, **(cloth or {})}]}
     if any(effect["type"] in ("paper_wind", "aerodynamics") for effect in effects):
         scene["wind"] = {"speed": 3, **(wind or {})}
     file, out = folder / "scene.json", folder / "callgrind.out"
@@ -75,6 +86,25 @@ class AbsentEffects(unittest.TestCase):
                     with self.subTest(kind=kind, present=present):
                         # The air at each node is needed for turbulence alone.
                         self.assertEqual(bool(seen), kind == present if kind else present == "turbulence", seen)
+
+    def test_parts_are_entered_only_where_there_are_any(self):
+        air = {"type": "aerodynamics"}
+        path = [{"time": 0, "offset": [0, 0, 0]}, {"time": 1, "offset": [0, 0, 0.1]}]
+        zone = {"type": "sphere", "position": [0, 0, 0], "radius": 0.2, "velocity": [0, 0, 1]}
+        body = {"type": "box", "position": [0, -0.3, 0], "size": [0.1, 0.1, 0.1], "motion": "dynamic", "mass": 1}
+        scenes = [([air, {"type": "gravity"}, {"type": "inflation", "volume": 0.1}], [BALL], {},
+                   {"sewn": True, "pins": [{"u": [0, 1], "v": [0, 0], "path": path}]}),
+                  ([air, {"type": "gravity"}, {"type": "inflation"}], [RING, FLOOR, body], {"zones": [zone]}, {})]
+        with tempfile.TemporaryDirectory() as folder:
+            for here, (effects, colliders, wind, cloth) in zip(PARTS, scenes):
+                entered = functions_entered(effects, pathlib.Path(folder), colliders, wind, cloth)
+                self.assertTrue(any("Contact<float>::" in name for name in entered), "nothing was touched")
+                for group in PARTS:
+                    for part, marks in group.items():
+                        for mark in marks:
+                            seen = sorted(function for function in entered if re.search(mark, function))
+                            with self.subTest(part=part, mark=mark, scene=list(here)):
+                                self.assertEqual(bool(seen), group is here, seen)
 
     def test_contact_is_entered_only_where_there_are_colliders(self):
         with tempfile.TemporaryDirectory() as folder:
