@@ -24,6 +24,8 @@ std::string what_was_wrong(const GuardEvent& event) {
       return "a strain of " + number(event.value) + limit;
     case Fault::unsolved:
       return "no solution";
+    case Fault::crowded:
+      return "more contacts in one place than are held";
     case Fault::none:
       break;
   }
@@ -57,6 +59,8 @@ std::string describe(const GuardEvent& event, const std::string& cloth) {
       return cloth + gave + ", smaller steps too: it stands still and is tried again from time to time";
     case GuardEvent::Action::thawed:
       return cloth + ": moves again from step " + std::to_string(event.step) + " on, " + name_of(event.rung);
+    case GuardEvent::Action::let_through:
+      return cloth + gave + ": those beyond are not felt, and cloth may pass through cloth there";
     case GuardEvent::Action::ball_stopped:
       break;
   }

@@ -13,6 +13,7 @@ enum class Fault {
   too_fast,       ///< a node is faster than StepGuard::kMostSpeed
   too_stretched,  ///< a structural spring is strained beyond StepGuard::kMostStrain
   unsolved,       ///< the integrator itself says that it found no next state
+  crowded,        ///< more cloth lies in one place than is kept apart
 };
 
 /// How a step is made: the cloth's own way, and what is tried in its place, one after the other.
@@ -22,14 +23,15 @@ inline constexpr std::size_t kRungs = 5;
 /// Something that the step guard found and did.
 struct GuardEvent {
   enum class Action {
-    redone,       ///< the step was taken back and made again by `rung`, which is kept for a while
-    frozen,       ///< nothing helped: the cloth stands still at its last good state, and is tried again
-    thawed,       ///< a frozen cloth moves again, by `rung`
-    ball_stopped  ///< a ball, or a body, was put back to its last good place, at rest
+    redone,        ///< the step was taken back and made again by `rung`, which is kept for a while
+    frozen,        ///< nothing helped: the cloth stands still at its last good state, and is tried again
+    thawed,        ///< a frozen cloth moves again, by `rung`
+    ball_stopped,  ///< a ball, or a body, was put back to its last good place, at rest
+    let_through    ///< a part of the cloth was not kept from passing through cloth (FeatureSearch)
   };
   Action action = Action::redone;
   Fault fault = Fault::none;  ///< none if thawed
-  double value = 0;           ///< what was found: m/s, or the strain
+  double value = 0;           ///< what was found: m/s, or the strain; not by let_through
   double limit = 0;           ///< and what is allowed
   Rung rung = Rung::own;      ///< redone and thawed
   std::size_t cloth = 0;      ///< index

@@ -220,6 +220,14 @@ void Simulation<Real>::collect_guard_events() {
       event.step = steps_;
       guard_events_.push_back(event);
     }
+    if (layers_ && layers_->crowded(i)) {
+      GuardEvent event;
+      event.action = GuardEvent::Action::let_through;
+      event.fault = Fault::crowded;
+      event.cloth = i;
+      event.step = steps_;
+      guard_events_.push_back(event);
+    }
   }
   for (const ColliderId ball : colliders_.take_stopped()) {
     GuardEvent event;

@@ -16,16 +16,17 @@ std::vector<GuardLog::Notice> GuardLog::stepped(const Simulation<float>& simulat
     }
     if (event.action == Action::redone) ++redone_;
     if (event.action == Action::ball_stopped) ++balls_stopped_;
-    const bool thawed = event.action == Action::thawed;
+    const bool thawed = event.action == Action::thawed, crowded = event.action == Action::let_through;
     if (thawed) frozen_cloths_.erase(event.cloth);
-    if (!thawed && event.step < quiet_until_) {
-      ++untold_;
+    if (crowded) ++crowded_;
+    Rare& rare = crowded ? crowds_ : recoveries_;
+    if (!thawed && event.step < rare.quiet_until) {
+      ++rare.untold;
       continue;
     }
-    if (untold_ > 0) message += " (" + std::to_string(untold_) + " more like it before)";
-    untold_ = 0;
-    quiet_until_ = event.step + kQuietSteps;
-    notices.push_back({"recovered", std::move(message)});
+    if (rare.untold > 0) message += " (" + std::to_string(rare.untold) + " more like it before)";
+    rare = {event.step + kQuietSteps, 0};
+    notices.push_back({crowded ? "crowded" : "recovered", std::move(message)});
   }
   return notices;
 }
@@ -37,8 +38,8 @@ std::vector<GuardLog::Notice> GuardLog::standing() const {
 }
 
 nlohmann::json GuardLog::stats_json() const {
-  if (redone_ + frozen_ + balls_stopped_ == 0) return nullptr;
-  return {{"redone", redone_}, {"frozen", frozen_}, {"balls_stopped", balls_stopped_}};
+  if (redone_ + frozen_ + balls_stopped_ + crowded_ == 0) return nullptr;
+  return {{"redone", redone_}, {"frozen", frozen_}, {"balls_stopped", balls_stopped_}, {"crowded", crowded_}};
 }
 
 }  // namespace weft::host

@@ -13,7 +13,8 @@ namespace weft::host {
 /// Belongs to LiveScene; no clock. Since the scene was loaded or reset.
 class GuardLog {
  public:
-  /// Of recoveries at most one is told in so many steps; the others are counted.
+  /// Of recoveries at most one is told in so many steps, and of steps that let cloth through cloth; the
+  /// others are counted.
   static constexpr std::uint64_t kQuietSteps = 60;
 
   /// A notice of PROTOCOL.md section 3.
@@ -28,10 +29,15 @@ class GuardLog {
   nlohmann::json stats_json() const;
 
  private:
-  std::uint64_t redone_ = 0, frozen_ = 0, balls_stopped_ = 0;
+  /// Of what is told at most once in a while.
+  struct Rare {
+    std::uint64_t quiet_until = 0;  ///< step
+    int untold = 0;                 ///< since the last that was told
+  };
+
+  std::uint64_t redone_ = 0, frozen_ = 0, balls_stopped_ = 0, crowded_ = 0;
   std::map<std::size_t, std::string> frozen_cloths_;  ///< what was told of each
-  std::uint64_t quiet_until_ = 0;                     ///< step
-  int untold_ = 0;                                    ///< recoveries since the last that was told
+  Rare recoveries_, crowds_;
 };
 
 }  // namespace weft::host

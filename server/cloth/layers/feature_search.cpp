@@ -238,10 +238,17 @@ const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, dou
   for (Sheet& sheet : sheets_) sheet.tree.refit(nodes.start.data() + sheet.first, end_.data() + sheet.first);
 
   pairs_.clear();
-  for (Sheet& sheet : sheets_) sheet.found.assign(sheet.tree.cells(), 0);
+  for (Sheet& sheet : sheets_) {
+    sheet.found.assign(sheet.tree.cells(), 0);
+    sheet.crowded = false;
+  }
   std::uint16_t* of_cell = nullptr;
+  bool* crowded = nullptr;
   const auto add = [&](FeaturePair pair) {
-    if (*of_cell == kMostOfCell || pairs_.size() == kMost) return;
+    if (*of_cell == kMostOfCell || pairs_.size() == kMost) {
+      *crowded = true;
+      return;
+    }
     const auto tangled = [&](std::uint32_t n) { return nodes.tangled[n] != 0; };
     if (std::any_of(pair.node.begin(), pair.node.end(), tangled)) return;
     const FourPoints start = points_of(pair, nodes.start);
@@ -253,6 +260,8 @@ const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, dou
     ++*of_cell;
   };
   for_each_sheets(margin, [&](Sheet& one, const Sheet& other) {
+    crowded = &one.crowded;
+    if (cells_.size() >= PatchTree::kMostPairs) *crowded = true;
     Cell last{-1, -1};
     CellFeatures a;
     for (const auto& [first, second] : cells_) {

@@ -20,7 +20,7 @@ struct Crossing {
 ///
 /// Cloth can be packed so densely that everything is near everything: of a cell no more than kMostOfCell
 /// pairs are found, and kMost in all: of 64 x 64 cells in a point there were 100 million. What is beyond
-/// is not felt.
+/// is not felt, and told (crowded).
 class FeatureSearch {
  public:
   static constexpr std::size_t kMostOfCell = 1024, kMost = std::size_t{1} << 22;
@@ -39,6 +39,8 @@ class FeatureSearch {
   /// The last search's pairs, valid until the next one, and its margin, m: 0 if nothing was found.
   const std::vector<FeaturePair>& pairs() const { return pairs_; }
   double margin() const { return margin_; }
+  /// Of this cloth, counted from 0, the last search left out what was beyond its bounds.
+  bool crowded(std::size_t sheet) const { return sheets_[sheet].crowded; }
   /// The pairs of cells that the last search went through, and how many searches there were.
   std::size_t cell_pairs() const { return cell_pairs_; }
   std::size_t searches() const { return searches_; }
@@ -52,6 +54,7 @@ class FeatureSearch {
     std::uint32_t first;
     std::vector<std::uint16_t> left;   ///< of each cell's own features, as bits; empty while it is whole
     std::vector<std::uint16_t> found;  ///< pairs of each cell
+    bool crowded = false;
   };
   /// Of a cell above or before another one.
   static bool has_triangles(const Sheet& sheet, int row, int col);

@@ -112,6 +112,7 @@ template <class Real>
 void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   lay_out(cloths);
   take_over_tears(cloths);
+  crowded_.assign(cloths.size(), 0);
   // While all stand still the pairs of the last step are right, should one wake in this one.
   if (found_ && std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   const bool anew = !found_;
@@ -188,7 +189,8 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   std::vector<int> nearest(2 * nodes_.start.size(), -1);
   std::vector<Nearest> found;
   std::vector<std::uint16_t> of_node(nodes_.start.size());
-  for (const FeaturePair& features : search_.find(nodes_, parameters_.thickness + drop)) {
+  const double widest = *std::max_element(gaps_.begin(), gaps_.end());
+  for (const FeaturePair& features : search_.find(nodes_, widest + drop)) {
     LayerPair pair;
     pair.features = features;
     const std::size_t one = sheet_of(features.node[0]), other = sheet_of(features.node[2]);
@@ -209,7 +211,11 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
     if (!node_on_triangle) pair.gap *= kEdgePart;
     if (distance - drop > pair.gap) continue;
     if (!node_on_triangle) {
-      if (of_node[features.node[0]]++ < kMostEdges) edges.push_back(pair);
+      if (of_node[features.node[0]]++ < kMostEdges) {
+        edges.push_back(pair);
+      } else {
+        crowded_[one] = 1;
+      }
       continue;
     }
     pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
@@ -221,6 +227,9 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
     } else if (distance < found[static_cast<std::size_t>(slot)].distance) {
       found[static_cast<std::size_t>(slot)] = {distance, pair};
     }
+  }
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (search_.crowded(i)) crowded_[i] = 1;
   }
   const auto share = [&](const LayerPair& pair) {
     const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);

@@ -35,6 +35,8 @@ class Layers {
 
   /// Nodes that are left alone, as the last step began.
   int tangled_nodes() const { return tangled_; }
+  /// In the last step more of the cloth lay in one place than is kept apart (FeatureSearch).
+  bool crowded(std::size_t cloth) const { return crowded_[cloth] != 0; }
 
  private:
   void lay_out(std::vector<Cloth<Real>>& cloths);
@@ -55,6 +57,7 @@ class Layers {
   CollisionNet net_{0};
   std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
   std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
+  std::vector<char> crowded_;   ///< by cloth, in the last step
   bool found_ = false;          ///< pairs, at these levels
   bool may_be_tangled_ = true;
   int tangled_ = 0;

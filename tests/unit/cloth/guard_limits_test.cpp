@@ -116,6 +116,11 @@ TEST(GuardEvents, AreToldInWords) {
   EXPECT_EQ(describe(event, ""),
             "ball 3: step 120 gave a position or velocity that is not finite: put back to its last good "
             "place, at rest");
+  event.action = GuardEvent::Action::let_through;
+  event.fault = Fault::crowded;
+  EXPECT_EQ(describe(event, "flag"),
+            "flag: step 120 gave more contacts in one place than are held: those beyond are not felt, and "
+            "cloth may pass through cloth there");
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ TEST(FeatureSearch, FindsNoMoreThanItsBounds) {
   search.set_grids({grid});
   const std::size_t ordinary = search.find(heap, 0.005).size();
   EXPECT_LT(ordinary, FeatureSearch::kMostOfCell / 10 * 64 * 64);
+  EXPECT_FALSE(search.crowded(0));
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> value(-1e-3, 1e-3);
   for (Vec3& x : heap.start) x = {value(random), value(random), value(random)};
@@ -148,8 +149,10 @@ TEST(FeatureSearch, FindsNoMoreThanItsBounds) {
   const auto& pairs = search.find(heap, 0.005);
   EXPECT_EQ(search.cell_pairs(), PatchTree::kMostPairs);
   EXPECT_GT(pairs.size(), ordinary);
+  EXPECT_TRUE(search.crowded(0));
   EXPECT_LE(pairs.size(), std::min(FeatureSearch::kMost, FeatureSearch::kMostOfCell * 64 * 64));
   EXPECT_EQ(search.find(folded(grid), 0.005).size(), ordinary);  // it goes on as before
+  EXPECT_FALSE(search.crowded(0));
 }
 
 }  // namespace weft::test

@@ -1,7 +1,9 @@
 /// What viewers are told when a step goes wrong, and when a cloth sleeps.
 #include <cmath>
+#include <random>
 
 #include "fixtures.h"
+#include "host/guard_log.h"
 #include "host/live_scene.h"
 
 namespace weft::host::test {
@@ -115,7 +117,8 @@ TEST_F(Impossible, OneClothIsFrozenTheSceneGoesOn) {
             "cloth: step 1 gave ");
   EXPECT_EQ(reader.frames.front().cloths[0].positions, reader.frames.back().cloths[0].positions);
   const json told_stats = stats();
-  EXPECT_EQ(told_stats.at("guard"), json({{"redone", 0}, {"frozen", 1}, {"balls_stopped", 0}}));
+  EXPECT_EQ(told_stats.at("guard"),
+            json({{"redone", 0}, {"frozen", 1}, {"balls_stopped", 0}, {"crowded", 0}}));
   EXPECT_EQ(told_stats.at("cloths").at(0).at("state"), "frozen");
   EXPECT_EQ(told_stats.at("cloths").at(0).at("substeps"), 0);
   EXPECT_EQ(told_stats.at("cloths").at(1).at("state"), "awake");
@@ -156,6 +159,45 @@ TEST_F(AtRest, StatsTellThatAClothSleeps) {
   steps(1);
   EXPECT_EQ(stats().at("cloths").at(0).at("state"), "awake");
   EXPECT_EQ(told("recovered") + told("frozen"), 0);
+}
+
+/// A cloth of 1 m, all of it within `half`, m, of one point.
+void pack(Simulation<float>& simulation, float half) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(-half, half);
+  Cloth<float>& cloth = simulation.cloths()[0];
+  auto& position = cloth.particles().position;
+  const Grid& grid = cloth.particles().grid();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      for (auto* component : {&position.x, &position.y, &position.z}) component->at(r, c) = value(random);
+    }
+  }
+  cloth.moved_from_outside();
+}
+
+std::vector<std::string> codes(const std::vector<GuardLog::Notice>& notices) {
+  std::vector<std::string> all;
+  for (const GuardLog::Notice& notice : notices) all.push_back(notice.code);
+  return all;
+}
+
+TEST(GuardLogs, TellOfClothThatIsLetThroughClothOnceInAWhile) {
+  SimulationDescription scene = hung_cloth().simulation;
+  scene.cloths[0].pins = {{0, 1, 0, 1}};  // all of it: there is nothing to solve
+  scene.cloths[0].initial_level = 4;  // 256 cells of 13 pairs with each other
+  scene.effects = {ClothContactEffect{}};
+  Simulation<float> simulation(scene);
+  GuardLog log;
+  simulation.step();
+  EXPECT_TRUE(log.stepped(simulation).empty());
+  EXPECT_EQ(log.stats_json(), nullptr);
+  pack(simulation, 1e-3F);
+  simulation.step();
+  EXPECT_EQ(codes(log.stepped(simulation)), std::vector<std::string>{"crowded"});
+  EXPECT_EQ(log.stats_json().at("crowded"), 1);
+  EXPECT_TRUE(codes(log.stepped(simulation)).empty());  // as if the next step did the same
+  EXPECT_EQ(log.stats_json().at("crowded"), 2);
 }
 
 }  // namespace
