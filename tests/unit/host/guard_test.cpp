@@ -185,7 +185,7 @@ std::vector<std::string> codes(const std::vector<GuardLog::Notice>& notices) {
 TEST(GuardLogs, TellOfClothThatIsLetThroughClothOnceInAWhile) {
   SimulationDescription scene = hung_cloth().simulation;
   scene.cloths[0].pins = {{0, 1, 0, 1}};  // all of it: there is nothing to solve
-  scene.cloths[0].initial_level = 4;  // 256 cells of 13 pairs with each other
+  scene.cloths[0].initial_level = 4;      // 256 cells of 13 pairs with each other
   scene.effects = {ClothContactEffect{}};
   Simulation<float> simulation(scene);
   GuardLog log;
