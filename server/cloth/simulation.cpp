@@ -221,21 +221,15 @@ void Simulation<Real>::collect_guard_events() {
       guard_events_.push_back(event);
     }
     if (layers_ && layers_->crowded(i)) {
-      GuardEvent event;
-      event.action = GuardEvent::Action::let_through;
-      event.fault = Fault::crowded;
-      event.cloth = i;
-      event.step = steps_;
-      guard_events_.push_back(event);
+      guard_events_.push_back(
+          {.action = GuardEvent::Action::let_through, .fault = Fault::crowded, .cloth = i, .step = steps_});
     }
   }
   for (const ColliderId ball : colliders_.take_stopped()) {
-    GuardEvent event;
-    event.action = GuardEvent::Action::ball_stopped;
-    event.fault = Fault::not_finite;
-    event.ball = ball;
-    event.step = steps_;
-    guard_events_.push_back(event);
+    guard_events_.push_back({.action = GuardEvent::Action::ball_stopped,
+                             .fault = Fault::not_finite,
+                             .ball = ball,
+                             .step = steps_});
   }
 }
 

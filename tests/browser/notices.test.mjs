@@ -64,6 +64,12 @@ test('a frozen cloth is told until the scene is reset', async () => {
   await page.waitForSelector('#notice', {state: 'hidden'});
 });
 
+test('crowded cloth is told in passing', async () => {
+  say({op: 'notice', code: 'crowded', message: 'cloth: step 6 gave more contacts in one place than are held'});
+  await page.waitForSelector('#toasts >> text=cloth: step 6 gave more contacts in one place than are held');
+  assert.equal(await page.isHidden('#notice'), true);
+});
+
 test('a frozen cloth is told until it moves again, beside a slow clock', async () => {
   say({op: 'notice', code: 'frozen', message: 'cloth: step 8 gave no solution'});
   say(stats('frozen'));
