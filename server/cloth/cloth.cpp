@@ -215,6 +215,17 @@ void Cloth<Real>::tune_effects(const std::vector<EffectDescription>& effects) {
 }
 
 template <class Real>
+void Cloth<Real>::set_material(const Material& material) {
+  if (material == description_.material) return;
+  guard_.repair(particles_);
+  description_.material = material;
+  make_springs();
+  integrator_->stiffness_changed();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
 void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
   effects_.push_back(std::move(effect));
   wake();

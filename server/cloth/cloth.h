@@ -53,6 +53,10 @@ class Cloth {
   /// The same, of effects of the same types in the same order: its integrator goes on from the steps before,
   /// unless the springs are damped otherwise, of which it keeps copies.
   void tune_effects(const std::vector<EffectDescription>& effects);
+  /// Is of this material, whose density is as before, from the next step on; its integrator goes on from the
+  /// steps before. The cloth wakes, unless that is what it is made of. A stretched one that is made stiffer
+  /// holds more energy, and moves.
+  void set_material(const Material& material);
   /// A hand takes hold; the cloth wakes. Ids are the caller's and differ.
   void grab(const Grab& grab);
   /// False if there is no such grab.
@@ -65,9 +69,9 @@ class Cloth {
   /// Lets go of the pin that holds (u, v), or of the nearest one; false if there is none.
   bool unpin(const Vec2& at);
   /// All that its next step follows from, as it is for `other`, a cloth of the same grids and limits of level
-  /// in another simulation: its integrator and what has befallen it, pins and grabs. Not the effects: gas is
-  /// left out where nothing shuts it in, and begins to be poured in where only this one has it; tears stay
-  /// whatever made them.
+  /// in another simulation: its integrator and what has befallen it, material, pins and grabs. Not the
+  /// effects: gas is left out where nothing shuts it in, and begins to be poured in where only this one has
+  /// it; tears stay whatever made them.
   void take_state(const Cloth& other);
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
   void set_layers(LayerContacts<Real>* layers) { layers_ = layers; }

@@ -168,6 +168,21 @@ bool Colliders::remove(BallId id) {
   return true;
 }
 
+bool Colliders::set_friction(BallId id, double friction) {
+  const auto ball = find_ball(balls_, id);
+  if (ball == balls_.end()) return false;
+  ball->friction = friction;
+  wake();
+  return true;
+}
+
+bool Colliders::set_obstacle_friction(std::size_t index, double friction) {
+  if (index >= obstacles_.size()) return false;
+  obstacles_[index].solid.friction = friction;
+  wake();
+  return true;
+}
+
 bool Colliders::move_obstacle(std::size_t index, const Pose& target) {
   if (index >= obstacles_.size()) return false;
   Obstacle& obstacle = obstacles_[index];

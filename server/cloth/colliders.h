@@ -82,6 +82,10 @@ class Colliders {
   /// The ball becomes dynamic and flies off. False if there is no such ball.
   bool throw_ball(BallId id, const Vec3& velocity);
   bool remove(BallId id);
+  /// Coulomb's coefficient, >= 0, from the next step on; what sleeps wakes. False if there is no such ball.
+  bool set_friction(BallId id, double friction);
+  /// The same of an obstacle, by its place in obstacles().
+  bool set_obstacle_friction(std::size_t index, double friction);
   /// The obstacle, by its place in obstacles(), leaves its path, or flies no more, takes the pose within the
   /// next step and stays there. False if there is no such obstacle.
   bool move_obstacle(std::size_t index, const Pose& target);

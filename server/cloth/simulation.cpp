@@ -88,6 +88,18 @@ void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects
 }
 
 template <class Real>
+bool Simulation<Real>::set_ball_friction(BallId id, double friction) {
+  for (Cloth<Real>& cloth : cloths_) cloth.wake();
+  return colliders_.set_friction(id, friction);
+}
+
+template <class Real>
+bool Simulation<Real>::set_obstacle_friction(std::size_t index, double friction) {
+  for (Cloth<Real>& cloth : cloths_) cloth.wake();
+  return colliders_.set_obstacle_friction(index, friction);
+}
+
+template <class Real>
 void Simulation<Real>::compose(const std::vector<EffectDescription>& effects) {
   effects_ = effects;
   gravity_ = total_gravity(effects);

@@ -74,6 +74,12 @@ class Simulation {
   /// which goes back to the description's. Where they are of the types that are simulated already, in the
   /// same order, only their numbers change and integrators go on from the steps before.
   void set_effects(const std::vector<EffectDescription>& effects);
+  /// The cloth is of this material, whose density is as before, from the next step on; until reset().
+  void set_material(std::size_t cloth, const Material& material) { cloths_[cloth].set_material(material); }
+  /// Coulomb's coefficient of a ball, or of an obstacle by its place in Colliders::obstacles(), >= 0; until
+  /// reset(). All that sleeps wakes. False if there is no such one.
+  bool set_ball_friction(BallId id, double friction);
+  bool set_obstacle_friction(std::size_t index, double friction);
   BallId add_ball(const BallDescription& ball) { return colliders_.add(ball); }
   bool move_ball(BallId id, const Vec3& target) { return colliders_.move(id, target); }
   bool throw_ball(BallId id, const Vec3& velocity) { return colliders_.throw_ball(id, velocity); }

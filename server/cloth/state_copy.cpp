@@ -61,6 +61,7 @@ template <class Real>
 void Cloth<Real>::take_state(const Cloth& other) {
   const bool same_grid = particles_.grid() == other.particles_.grid();
   const bool same_sheet = same_grid && torn_ == other.torn_ &&
+                          description_.material == other.description_.material &&
                           particles_.inverse_mass.values() == other.particles_.inverse_mass.values();
   level_ = other.level_;
   pending_level_ = other.pending_level_;
@@ -70,6 +71,7 @@ void Cloth<Real>::take_state(const Cloth& other) {
   particles_ = other.particles_;
   time_ = other.time_;
   description_.pins = other.description_.pins;
+  description_.material = other.description_.material;
   pins_ = other.pins_;
   walls_ = other.walls_;
   torn_ = other.torn_;

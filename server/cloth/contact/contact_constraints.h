@@ -93,7 +93,9 @@ class ContactConstraints {
     double led_out;                 ///< of which it is led out of the solid, where it began, m
     Vec3 solid_move;                ///< in the substep if nothing bends its way, m
     double holds;                   ///< at most, by friction, N
-    double sliding;                 ///< along the surface in the substep, if it goes on as before, m
+    double slid;                    ///< along the surface in the substep, if it goes on as before, m
+    double speeding_up;             ///< by how much more if what pulls at it goes on to, m
+    double sliding;                 ///< that is expected, m: speeding up as it was already to in the last one
     double width;                   ///< of the solid, its inner radius, m
     double stiffness = 0;           ///< N/m
     double friction_stiffness = 0;  ///< N/m
@@ -106,9 +108,13 @@ class ContactConstraints {
   static bool is_before(const Constraint& c, const Touch& touch);
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
-  /// `place` is the node's when the substep begins, `way` its move that `surface` was looked up for.
+  /// `place` is the node's when the substep begins, `way` its move that `surface` was looked up for, `mass`
+  /// in kg.
   Constraint held_by(const Touch& touch, const Solid& solid, const Surface& surface, const Vec3& place,
-                     const Vec3& way) const;
+                     const Vec3& way, double mass) const;
+  /// By how much more than `slid`, m, a node will slide in the substep by what pulled at it in the last one,
+  /// when `last` held it, but for a friction of `holds`, N.
+  double speeding_up(const Constraint& last, double slid, double holds, double mass) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
   bool lay_on(const Solid& solid, const Vec3& place) const;

@@ -42,6 +42,7 @@ class Implicit final : public Integrator<Real> {
     state_.reset();
     memory_.reset();
   }
+  void stiffness_changed() override { state_.reset(); }
   void take_memory(const Integrator<Real>& other) override {
     memory_ = static_cast<const Implicit&>(other).memory_;
   }

@@ -76,6 +76,9 @@ class Integrator {
                                 std::vector<Solid>& solids, double time, double dt) = 0;
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
+  /// Springs or plate are of another stiffness: what was laid out for them is made anew, and the next step
+  /// goes on from the steps before.
+  virtual void stiffness_changed() {}
   /// Goes on from what `other`, made by the same description, remembers of its steps.
   virtual void take_memory(const Integrator&) {}
 };
