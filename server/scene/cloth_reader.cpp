@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/material_parameters.h"
 #include "scene/readers.h"
 
 namespace weft::scene {
@@ -21,7 +22,6 @@ const Fabric* read_fabric(const json& value, const std::string& path, Report& re
 
 /// One number for all three, or [u, v, twist].
 void read_rigidity(Object& material, Rigidity& rigidity) {
-  constexpr Range kRigidity{0, 1e4, "N m"};
   const json* value = material.find("rigidity");
   Vec3 read(rigidity.u, rigidity.v, rigidity.twist);
   if (value && value->is_array()) {
@@ -33,21 +33,16 @@ void read_rigidity(Object& material, Rigidity& rigidity) {
 }
 
 void read_limit(const json& value, const std::string& path, Report& report, StrainLimit& limit) {
-  constexpr Range kElongation{1e-3, 10};
-  constexpr Range kShear{1e-3, 1.5, "rad"};
-  constexpr Range kStiffening{1, 1000};
   Object object(value, path, report);
   object.number("warp", limit.warp, kElongation);
   object.number("weft", limit.weft, kElongation);
-  object.number("shear", limit.shear, kShear);
+  object.number("shear", limit.shear, kLockingAngle);
   object.number("stiffening", limit.stiffening, kStiffening);
 }
 
 /// A fabric's name, or raw values; with "fabric" they change that fabric's.
 Material read_material(const json& value, const std::string& path, Report& report) {
   constexpr Range kDensity{1e-4, 1e4, "kg/m2"};
-  constexpr Range kStiffness{0, 1e9, "N/m"};
-  constexpr Range kDamping{0, 1e6};
   Material material;
   if (value.is_string()) {
     if (const Fabric* fabric = read_fabric(value, path, report)) material = fabric->material;

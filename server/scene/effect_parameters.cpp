@@ -23,10 +23,7 @@ Effect effect_with(Member Effect::*);
 template <auto kMember>
 EffectParameter member(const char* name, const Range& range) {
   using Effect = decltype(effect_with(kMember));
-  return {name,
-          values_of(Effect{}.*kMember).size(),
-          range,
-          false,
+  return {{name, values_of(Effect{}.*kMember).size(), range},
           [](const EffectDescription& effect) { return values_of(std::get<Effect>(effect).*kMember); },
           [](EffectDescription& effect, const Values& values) {
             set(std::get<Effect>(effect).*kMember, values);
@@ -44,10 +41,7 @@ EffectParameter lift(const Range& range) {
 
 /// Along warp and weft.
 EffectParameter strength(const Range& range) {
-  return {"strength",
-          2,
-          range,
-          true,
+  return {{"strength", 2, range, true},
           [](const EffectDescription& effect) {
             const auto& tearing = std::get<TearingEffect>(effect);
             return Values{tearing.warp, tearing.weft};
