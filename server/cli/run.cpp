@@ -18,6 +18,7 @@
 #include "cloth/simulation.h"
 #include "cloth/state_hash.h"
 #include "host/arithmetic.h"
+#include "host/guard_log.h"
 #include "scene/scene.h"
 
 namespace weft::cli {
@@ -124,20 +125,22 @@ int run(const RunOptions& options) {
   outputs.write(0, simulation);
 
   double seconds = 0;  // of the steps alone
+  host::GuardLog guard;
   {
     Progress progress(scene.name, options.frames);
     for (int frame = 1; frame <= options.frames; ++frame) {
       const auto start = Clock::now();
       simulation.step();
       seconds += std::chrono::duration<double>(Clock::now() - start).count();
-      for (const GuardEvent& event : simulation.guard_events()) {
-        progress.print("weft: " + describe(event, simulation.cloths()[event.cloth].description().name));
-      }
+      for (const host::GuardLog::Notice& notice : guard.stepped(simulation))
+        progress.print("weft: " + notice.message);
       outputs.write(frame, simulation);
       progress.show(frame);
     }
   }
   outputs.finish();
+  if (const auto counts = guard.stats_json(); !counts.is_null())
+    std::fprintf(stderr, "weft: %s: step guard: %s\n", scene.name.c_str(), counts.dump().c_str());
   std::printf("%s: %d frames, %g s simulated in %.2f s, %.3f ms a frame\n", scene.name.c_str(),
               options.frames, simulation.time(), seconds,
               options.frames ? 1e3 * seconds / options.frames : 0.0);

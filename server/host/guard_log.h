@@ -10,7 +10,7 @@
 
 namespace weft::host {
 
-/// Belongs to LiveScene; no clock. Since the scene was loaded or reset.
+/// Of one scene, since it was loaded or reset; no clock.
 class GuardLog {
  public:
   /// Of recoveries at most one is told in so many steps, and of steps that let cloth through cloth; the
