@@ -98,6 +98,15 @@ Fault check_quality(const json&, Command& command) {
   return {};
 }
 
+/// Not both.
+Fault check_friction(const json&, Command& command) {
+  const auto& set = std::get<FrictionSet>(command);
+  if (set.ball && set.obstacle)
+    return JsonFault{"conflict", "/obstacle",
+                     "/obstacle is given beside /ball; allowed: at most one of /ball and /obstacle"};
+  return {};
+}
+
 struct Operation {
   const char* name;
   Command blank;
@@ -110,6 +119,7 @@ const std::vector<Operation>& operations() {
   constexpr auto kRequired = Presence::required, kOptional = Presence::optional;
   constexpr Bounds kCharacters{1, 64}, kId{0, 4294967295}, kShare{0, 1};
   constexpr Bounds kEye{-1e6, 1e6, "m"}, kPlace{-1e3, 1e3, "m"}, kVelocity{-200, 200, "m/s"};
+  constexpr Bounds kFriction{0, 10};
   static const std::vector<Operation> table{
       {"hello",
        Hello{},
@@ -131,7 +141,8 @@ const std::vector<Operation>& operations() {
         field<&BallAdd::radius>("radius", kRequired, {0.01, 10, "m"}),
         field<&BallAdd::velocity>("velocity", kOptional, kVelocity),
         field<&BallAdd::motion>("motion", kOptional),
-        field<&BallAdd::mass>("mass", kOptional, {1e-3, 1e4, "kg"})}},
+        field<&BallAdd::mass>("mass", kOptional, {1e-3, 1e4, "kg"}),
+        field<&BallAdd::friction>("friction", kOptional, kFriction)}},
       {"ball.move",
        BallMove{},
        {field<&BallMove::ball>("ball", kRequired, kId),
@@ -177,6 +188,16 @@ const std::vector<Operation>& operations() {
        ClothUnpin{},
        {field<&ClothUnpin::cloth>("cloth", kRequired, kId), field<&ClothUnpin::u>("u", kRequired, kShare),
         field<&ClothUnpin::v>("v", kRequired, kShare)}},
+      {"cloth.tune",
+       ClothTune{},
+       {field<&ClothTune::cloth>("cloth", kRequired, kId),
+        field<&ClothTune::parameters>("parameters", kRequired)}},
+      {"friction.set",
+       FrictionSet{},
+       {field<&FrictionSet::friction>("friction", kRequired, kFriction),
+        field<&FrictionSet::ball>("ball", kOptional, kId),
+        field<&FrictionSet::obstacle>("obstacle", kOptional, kId)},
+       check_friction},
       {"effect.set",
        EffectSet{},
        {field<&EffectSet::effect>("effect", kRequired, kCharacters), field<&EffectSet::on>("on", kRequired)}},

@@ -122,12 +122,11 @@ Fault read(const json& value, const Bounds& bounds, const std::string& path, boo
   return {};
 }
 
-std::string kind_of(const std::map<std::string, Numbers>&, const Bounds&) {
+std::string kind_of(const Parameters&, const Bounds&) {
   return "an object of " + range_text(kMembers) + " members, each " + kind_of_numbers();
 }
 
-Fault read(const json& value, const Bounds& bounds, const std::string& path,
-           std::map<std::string, Numbers>& to) {
+Fault read(const json& value, const Bounds& bounds, const std::string& path, Parameters& to) {
   if (!value.is_object()) return refuse("bad_type", path, value, kind_of(to, bounds));
   const auto members = static_cast<double>(value.size());
   if (members < kMembers.low || members > kMembers.high)
@@ -146,7 +145,7 @@ void write(const std::string& from, nlohmann::ordered_json& to) {
   if (!from.empty()) to = from;
 }
 
-void write(const std::map<std::string, Numbers>& from, nlohmann::ordered_json& to) {
+void write(const Parameters& from, nlohmann::ordered_json& to) {
   for (const auto& [name, numbers] : from) {
     if (numbers.size() == 1) {
       to[name] = numbers[0];

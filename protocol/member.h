@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -38,7 +37,7 @@ std::string kind_of(const double&, const Bounds& bounds);
 std::string kind_of(const std::string&, const Bounds& bounds);
 std::string kind_of(const std::vector<std::string>&, const Bounds& bounds);
 std::string kind_of(const Motion&, const Bounds&);
-std::string kind_of(const std::map<std::string, Numbers>&, const Bounds&);
+std::string kind_of(const Parameters&, const Bounds&);
 std::string kind_of(const bool&, const Bounds&);
 
 template <std::integral Integer>
@@ -66,8 +65,7 @@ Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string&
 Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string& path, Motion& to);
 Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string& path, bool& to);
 /// What their names are, and their bounds, is not for this layer to tell.
-Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string& path,
-           std::map<std::string, Numbers>& to);
+Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string& path, Parameters& to);
 
 /// Any number without a fraction is an integer, however it is written: 7.0 and 7e0 too.
 template <std::integral Integer>
@@ -100,7 +98,7 @@ Fault read(const nlohmann::json& value, const Bounds& bounds, const std::string&
 
 void write(const Motion& motion, nlohmann::ordered_json& to);
 void write(const std::string& from, nlohmann::ordered_json& to);
-void write(const std::map<std::string, Numbers>& from, nlohmann::ordered_json& to);
+void write(const Parameters& from, nlohmann::ordered_json& to);
 
 template <class T>
 void write(const T& from, nlohmann::ordered_json& to) {

@@ -56,6 +56,7 @@ struct BallAdd {
   Vector velocity{};
   Motion motion = Motion::kinematic;
   double mass = 1;
+  double friction = 0;
 };
 struct BallMove {
   std::uint32_t ball = 0;
@@ -105,15 +106,26 @@ struct ClothUnpin {
   std::uint32_t cloth = 0;
   double u = 0, v = 0;
 };
+/// A number, or an array of several.
+using Numbers = std::vector<double>;
+using Parameters = std::map<std::string, Numbers>;  ///< by name, at least one
+struct ClothTune {
+  std::uint32_t cloth = 0;
+  Parameters parameters;
+};
+/// Of what cloth slides on. At most one of the two; without either of every ball and obstacle.
+struct FrictionSet {
+  double friction = 0;
+  std::optional<std::uint32_t> ball = {};
+  std::optional<std::uint32_t> obstacle = {};  ///< its place in `scene`
+};
 struct EffectSet {
   std::string effect;
   bool on = true;
 };
-/// A number, or an array of several.
-using Numbers = std::vector<double>;
 struct EffectTune {
   std::string effect;
-  std::map<std::string, Numbers> parameters;  ///< by name, at least one
+  Parameters parameters;
 };
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
@@ -143,8 +155,8 @@ struct Ping {
 
 using Command = std::variant<Hello, SceneList, SceneJoin, Camera, Ack, BallAdd, BallMove, BallThrow,
                              BallRemove, ObstacleMove, ObstacleThrow, ObstacleGrab, ClothGrab, GrabMove,
-                             GrabRelease, ClothPin, ClothUnpin, EffectSet, EffectTune, WindSet, WindZoneSet,
-                             Quality, Cost, Pause, Resume, Reset, Step, Ping>;
+                             GrabRelease, ClothPin, ClothUnpin, ClothTune, FrictionSet, EffectSet, EffectTune,
+                             WindSet, WindZoneSet, Quality, Cost, Pause, Resume, Reset, Step, Ping>;
 
 struct Request {
   std::optional<std::int64_t> id;

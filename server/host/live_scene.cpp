@@ -6,6 +6,7 @@
 
 #include "cloth/diagnostics.h"
 #include "host/scene_messages.h"
+#include "host/tuning.h"
 
 namespace weft::host {
 namespace {
@@ -25,6 +26,7 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
       effects_(scene_.simulation.effects) {
   for (const Cloth<float>& cloth : simulation_.cloths()) {
     finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
+    materials_.push_back(cloth.description().material);
   }
   frame_stride_ =
       std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
@@ -42,7 +44,8 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.distance = scene_.camera_distance;
   look(seat);
   seat.viewer->send(
-      visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_, effects_}, seat)));
+      visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_, effects_, materials_},
+                                  seat)));
   for (const GuardLog::Notice& notice : guard_.standing())
     seat.viewer->send(visit, make_text(protocol::notice_text(notice.code, notice.message)));
   seats_.push_back(std::move(seat));
@@ -120,15 +123,37 @@ SimulationDescription LiveScene::studied() const {
   description.effects = effects_;
   std::erase_if(description.effects,
                 [&](const EffectDescription& effect) { return is_off(name_of(effect)); });
+  for (std::size_t i = 0; i < materials_.size(); ++i) description.cloths[i].material = materials_[i];
+  const Colliders& colliders = simulation_.colliders();
+  for (std::size_t i = 0; i < description.balls.size(); ++i) {
+    const Ball* ball = colliders.find(static_cast<BallId>(i + 1));  // as long as nobody took it away
+    if (ball != nullptr) description.balls[i].friction = ball->friction;
+  }
+  for (std::size_t i = 0; i < description.obstacles.size(); ++i)
+    description.obstacles[i].friction = colliders.obstacles()[i].solid.friction;
   return description;
+}
+
+json LiveScene::composition() const {
+  json all{{"off", effects_off_},
+           {"parameters", parameters_json(effects_)},
+           {"materials", materials_json(materials_, effects_)}};
+  const SimulationDescription now = studied();
+  for (const BallDescription& ball : now.balls) all["balls"].push_back(ball.friction);
+  for (const ObstacleDescription& obstacle : now.obstacles) all["obstacles"].push_back(obstacle.friction);
+  return all;
 }
 
 bool LiveScene::is_off(std::string_view effect) const {
   return std::find(effects_off_.begin(), effects_off_.end(), effect) != effects_off_.end();
 }
 
-void LiveScene::effects_changed() {
+void LiveScene::composition_changed() {
   recompose_ = true;
+  study_outdated();
+}
+
+void LiveScene::study_outdated() {
   ++study_number_;
   quality_.outdated();
   const auto waits = [](const Seat& seat) { return seat.wants_curve; };
@@ -149,7 +174,7 @@ bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || wait
 void LiveScene::step() {
   for (Seat& seat : seats_) look(seat, 1);
   request_levels();
-  if (std::exchange(recompose_, false)) simulation_.set_effects(studied().effects);
+  if (std::exchange(recompose_, false)) recompose();
   simulation_.step();
   tell_guard_events();
   const auto& cloths = simulation_.cloths();
@@ -162,6 +187,11 @@ void LiveScene::step() {
   state_newer_ = true;
   if (asked_for || simulation_.step_count() % static_cast<std::uint64_t>(frame_stride_) == 0)
     frame_due_ = true;
+}
+
+void LiveScene::recompose() {
+  simulation_.set_effects(studied().effects);
+  for (std::size_t i = 0; i < materials_.size(); ++i) simulation_.set_material(i, materials_[i]);
 }
 
 void LiveScene::set_slow(bool slow) {

@@ -23,9 +23,10 @@ using SceneCommand =
     std::variant<protocol::Camera, protocol::BallAdd, protocol::BallMove, protocol::BallThrow,
                  protocol::BallRemove, protocol::ObstacleMove, protocol::ObstacleThrow,
                  protocol::ObstacleGrab, protocol::ClothGrab, protocol::GrabMove, protocol::GrabRelease,
-                 protocol::ClothPin, protocol::ClothUnpin, protocol::EffectSet, protocol::EffectTune,
-                 protocol::WindSet, protocol::WindZoneSet, protocol::Quality, protocol::Cost, protocol::Pause,
-                 protocol::Resume, protocol::Reset, protocol::Step>;
+                 protocol::ClothPin, protocol::ClothUnpin, protocol::ClothTune, protocol::FrictionSet,
+                 protocol::EffectSet, protocol::EffectTune, protocol::WindSet, protocol::WindZoneSet,
+                 protocol::Quality, protocol::Cost, protocol::Pause, protocol::Resume, protocol::Reset,
+                 protocol::Step>;
 
 struct SceneRequest {
   std::optional<std::int64_t> id;
@@ -59,7 +60,7 @@ class LiveScene {
   void step();
   /// Somebody wishes for a quality or asks for the cost, which have to be studied first.
   bool wants_study() const { return quality_.wants_study() && !seats_.empty(); }
-  /// What is to be studied: the scene, with the effects that are on.
+  /// What is to be studied: the scene, with the effects that are on, and materials and friction as they are.
   SimulationDescription studied() const;
   /// Changes when what is to be studied does: a study of something else is of no use.
   std::uint64_t study_number() const { return study_number_; }
@@ -99,6 +100,8 @@ class LiveScene {
   Outcome carry_out(const protocol::GrabRelease& release, Seat& seat);
   Outcome carry_out(const protocol::ClothPin& pin, Seat& seat);
   Outcome carry_out(const protocol::ClothUnpin& unpin, Seat& seat);
+  Outcome carry_out(const protocol::ClothTune& tuning, Seat& seat);
+  Outcome carry_out(const protocol::FrictionSet& set, Seat& seat);
   Outcome carry_out(const protocol::EffectSet& effect, Seat& seat);
   Outcome carry_out(const protocol::EffectTune& tuning, Seat& seat);
   Outcome carry_out(const protocol::WindSet& wind, Seat& seat);
@@ -125,9 +128,14 @@ class LiveScene {
   void use_chosen_integrator();
   std::optional<protocol::Error> missing_effect(const std::string& effect) const;
   bool is_off(std::string_view effect) const;
-  /// The effects that are on, or their parameters, are others now: the next step is composed of them, and
-  /// what was studied is of another scene.
-  void effects_changed();
+  /// The effects that are on, their parameters or the materials are others now: the next step is composed of
+  /// them.
+  void composition_changed();
+  void recompose();
+  /// What was studied is of another scene.
+  void study_outdated();
+  /// All that commands may change of what is studied, to be compared.
+  nlohmann::json composition() const;
   void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();
@@ -152,6 +160,7 @@ class LiveScene {
   std::vector<BoundingSphere> bounds_;      ///< of the cloths; without a radius where nobody asks for it
   std::vector<EffectDescription> effects_;  ///< the scene's, with the parameters that they have now
   std::vector<std::string> effects_off_;    ///< of them, by name, in the scene's order
+  std::vector<Material> materials_;         ///< the cloths', as they are now
   bool recompose_ = false;  ///< the simulation does not have them yet: once a step, however many commands
   std::uint64_t study_number_ = 0;
   int frame_stride_ = 1;  ///< steps from one frame to the next

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cloth/contact/triangle_mesh.h"
-#include "host/effect_tuning.h"
+#include "host/tuning.h"
 
 namespace weft::host {
 namespace {
@@ -20,7 +20,7 @@ json relevance_json(const Relevance& relevance) {
   return message;
 }
 
-json cloths_json(const Simulation<float>& simulation) {
+json cloths_json(const Simulation<float>& simulation, const SceneState& state) {
   json cloths = json::array();
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
     const ClothDescription& cloth = simulation.cloths()[i].description();
@@ -30,6 +30,7 @@ json cloths_json(const Simulation<float>& simulation) {
                       {"base_cells", {cloth.base_cells.cols, cloth.base_cells.rows}},
                       {"min_level", cloth.min_level},
                       {"max_level", cloth.max_level},
+                      {"material", material_json(state.materials[i], state.effects)},
                       {"pins", pins_json(cloth)}});
     if (cloth.relevance.unseen != Relevance::Unseen::step)
       cloths.back()["relevance"] = relevance_json(cloth.relevance);
@@ -39,8 +40,8 @@ json cloths_json(const Simulation<float>& simulation) {
 
 json quaternion_json(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-json obstacle_json(const ObstacleDescription& obstacle) {
-  json message{{"position", vector_json(obstacle.position)}};
+json obstacle_json(const ObstacleDescription& obstacle, double friction) {
+  json message{{"position", vector_json(obstacle.position)}, {"friction", friction}};
   if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
     message["shape"] = plane->kName;
     message["normal"] = vector_json(plane->normal);
@@ -137,9 +138,16 @@ json balls_json(const Colliders& colliders) {
     balls.push_back({{"ball", ball.id},
                      {"position", vector_json(ball.position)},
                      {"radius", ball.radius},
-                     {"motion", dynamic ? "dynamic" : "kinematic"}});
+                     {"motion", dynamic ? "dynamic" : "kinematic"},
+                     {"friction", ball.friction}});
   }
   return balls;
+}
+
+json frictions_json(const Colliders& colliders) {
+  json frictions = json::array();
+  for (const Obstacle& obstacle : colliders.obstacles()) frictions.push_back(obstacle.solid.friction);
+  return frictions;
 }
 
 std::vector<std::shared_ptr<const std::string>> mesh_texts(const SimulationDescription& description) {
@@ -167,9 +175,10 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
       {"effects", effects_json(description)},
       {"parameters", parameters_json(state.effects)},
       {"tunable", tunable_json(state.effects)},
+      {"material_tunable", material_tunable_json(state.effects)},
       {"wind", wind_json(simulation.wind())},
       {"balls", balls_json(simulation.colliders())},
-      {"cloths", cloths_json(simulation)},
+      {"cloths", cloths_json(simulation, state)},
       {"level_policy",
        {{"thresholds", policy.thresholds}, {"levels", policy.levels}, {"hysteresis", policy.hysteresis}}},
       {"camera",
@@ -178,8 +187,9 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
         {"target", vector_json(scene.camera_target)},
         {"level", seat.levels}}}};
   if (!state.effects_off.empty()) message["effects_off"] = state.effects_off;
-  for (const ObstacleDescription& obstacle : description.obstacles) {
-    message["obstacles"].push_back(obstacle_json(obstacle));
+  for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
+    const Solid& solid = simulation.colliders().obstacles()[i].solid;
+    message["obstacles"].push_back(obstacle_json(description.obstacles[i], solid.friction));
   }
   return message.dump();
 }

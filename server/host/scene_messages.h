@@ -17,10 +17,13 @@ struct SceneState {
   bool paused = false;
   std::vector<std::string> effects_off;
   std::vector<EffectDescription> effects;  ///< as they are now
+  std::vector<Material> materials;         ///< the cloths', as they are now
 };
 
 nlohmann::json wind_json(const Wind& wind);
 nlohmann::json balls_json(const Colliders& colliders);
+/// The obstacles' friction.
+nlohmann::json frictions_json(const Colliders& colliders);
 /// What holds one cloth now.
 nlohmann::json pins_json(const ClothDescription& cloth);
 /// What holds each of them.

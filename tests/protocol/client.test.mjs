@@ -121,6 +121,7 @@ test('each method sends its operation', async () => {
   await client.camera({ eye: [0, 1, 2] });
   await client.camera({ eye: [0, 1, 2], target: [0, 1, 0], half_angle: 0.5 });
   assert.equal(await client.addBall({ position: [0, 1, 2], radius: 0.2 }), 7);
+  await client.addBall({ position: [0, 1, 2], radius: 0.2, friction: 0.5 });
   await client.moveBall(7, [1, 1, 1]);
   await client.throwBall(7, [0, 0, -6]);
   await client.removeBall(7);
@@ -135,6 +136,10 @@ test('each method sends its operation', async () => {
   await client.release(3);
   await client.pin(0, 0.5, 1);
   await client.unpin(0, 0.5, 1);
+  await client.tuneCloth(1, { structural: 250, rigidity: [1e-5, 2e-5, 0] });
+  await client.setFriction(0.4, { ball: 7 });
+  await client.setFriction(0.5, { obstacle: 0 });
+  await client.setFriction(0);
   await client.setEffect('gravity', false);
   await client.tuneEffect('gravity', { acceleration: [0, -1.62, 0] });
   await client.setWind([0, 0, -1], 3);
@@ -158,12 +163,15 @@ test('each method sends its operation', async () => {
   assert.deepEqual(sent, [
     { op: 'camera', distance: 5 }, { op: 'camera', eye: [0, 1, 2] },
     { op: 'camera', eye: [0, 1, 2], target: [0, 1, 0], half_angle: 0.5 }, { op: 'ball.add', position: [0, 1, 2], radius: 0.2 },
+    { op: 'ball.add', position: [0, 1, 2], radius: 0.2, friction: 0.5 },
     { op: 'ball.move', ball: 7, position: [1, 1, 1] }, { op: 'ball.throw', ball: 7, velocity: [0, 0, -6] }, { op: 'ball.remove', ball: 7 },
     { op: 'obstacle.move', obstacle: 0, position: [0, 1, 0] }, { op: 'obstacle.move', obstacle: 1, position: [0, 1, 0], quaternion: [0, 1, 0, 0] },
     { op: 'obstacle.throw', obstacle: 0, velocity: [0, 1, 0] }, { op: 'obstacle.throw', obstacle: 1, velocity: [0, 1, 0], spin: [0, 2, 0] },
     { op: 'cloth.grab', cloth: 0, u: 0.5, v: 1, max_force: 20 }, { op: 'obstacle.grab', obstacle: 2 },
     { op: 'obstacle.grab', obstacle: 1, point: [0, 0.1, 0], position: [0, 1, 0], max_force: 20 }, { op: 'grab.move', grab: 3, position: [0, 1, 0] }, { op: 'grab.release', grab: 3 },
     { op: 'cloth.pin', cloth: 0, u: 0.5, v: 1 }, { op: 'cloth.unpin', cloth: 0, u: 0.5, v: 1 },
+    { op: 'cloth.tune', cloth: 1, parameters: { structural: 250, rigidity: [1e-5, 2e-5, 0] } },
+    { op: 'friction.set', friction: 0.4, ball: 7 }, { op: 'friction.set', friction: 0.5, obstacle: 0 }, { op: 'friction.set', friction: 0 },
     { op: 'effect.set', effect: 'gravity', on: false },
     { op: 'effect.tune', effect: 'gravity', parameters: { acceleration: [0, -1.62, 0] } },
     { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 },

@@ -166,7 +166,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.camera(eye=[0, 1, 2])
             await scene.camera(eye=(0, 1, 2), target=(0, 1, 0), half_angle=0.5)
             self.assertEqual(await scene.add_ball([0, 1, 2], 0.2), 7)
-            await scene.add_ball((0, 1, 2), 0.2, velocity=(0, 0, 1), motion="dynamic", mass=2)
+            await scene.add_ball((0, 1, 2), 0.2, velocity=(0, 0, 1), motion="dynamic", mass=2, friction=0.5)
             await scene.move_ball(7, [1, 1, 1])
             await scene.throw_ball(7, [0, 0, -6])
             await scene.remove_ball(7)
@@ -181,6 +181,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.release(3)
             await scene.pin(0, 0.5, 1)
             await scene.unpin(0, 0.5, 1)
+            await scene.tune_cloth(1, structural=250, rigidity=(1e-5, 2e-5, 0))
+            await scene.set_friction(0.4, ball=7)
+            await scene.set_friction(0.5, obstacle=0)
+            await scene.set_friction(0)
             await scene.set_effect("gravity", False)
             await scene.tune_effect("aerodynamics", drag=0.5, lift=0)
             await scene.set_wind([0, 0, -1], 3)
@@ -204,7 +208,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(sent, [
             {"op": "camera", "distance": 5}, {"op": "camera", "eye": [0, 1, 2]},
             {"op": "camera", "eye": [0, 1, 2], "target": [0, 1, 0], "half_angle": 0.5}, {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2},
-            {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2},
+            {"op": "ball.add", "position": [0, 1, 2], "radius": 0.2, "velocity": [0, 0, 1], "motion": "dynamic", "mass": 2, "friction": 0.5},
             {"op": "ball.move", "ball": 7, "position": [1, 1, 1]}, {"op": "ball.throw", "ball": 7, "velocity": [0, 0, -6]},
             {"op": "ball.remove", "ball": 7}, {"op": "obstacle.move", "obstacle": 0, "position": [0, 1, 0]},
             {"op": "obstacle.move", "obstacle": 1, "position": [0, 1, 0], "quaternion": [0, 1, 0, 0]},
@@ -213,7 +217,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "cloth.grab", "cloth": 0, "u": 0.5, "v": 1, "max_force": 20}, {"op": "obstacle.grab", "obstacle": 2},
             {"op": "obstacle.grab", "obstacle": 1, "point": [0, 0.1, 0], "position": [0, 1, 0], "max_force": 20}, {"op": "grab.move", "grab": 3, "position": [0, 1, 0]},
             {"op": "grab.release", "grab": 3}, {"op": "cloth.pin", "cloth": 0, "u": 0.5, "v": 1},
-            {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1}, {"op": "effect.set", "effect": "gravity", "on": False},
+            {"op": "cloth.unpin", "cloth": 0, "u": 0.5, "v": 1},
+            {"op": "cloth.tune", "cloth": 1, "parameters": {"structural": 250, "rigidity": [1e-5, 2e-5, 0]}},
+            {"op": "friction.set", "friction": 0.4, "ball": 7}, {"op": "friction.set", "friction": 0.5, "obstacle": 0},
+            {"op": "friction.set", "friction": 0}, {"op": "effect.set", "effect": "gravity", "on": False},
             {"op": "effect.tune", "effect": "aerodynamics", "parameters": {"drag": 0.5, "lift": 0}},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},

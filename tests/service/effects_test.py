@@ -1,4 +1,4 @@
-"""effect.tune over the wire: what is tuned acts from the step that is told, all viewers are told, wrong values are refused."""
+"""effect.tune, cloth.tune and friction.set over the wire: what is tuned acts from the step that is told, all viewers are told, wrong values are refused."""
 import math
 import unittest
 
@@ -86,6 +86,28 @@ class Effects(unittest.IsolatedAsyncioTestCase):
                 with self.assertRaises(weft.WeftError) as refused:
                     await scene.tune_effect(effect, **parameters)
                 self.assertEqual((refused.exception.code, refused.exception.path), (code, path))
+
+    async def test_a_material_and_friction_are_told_to_all(self):
+        scene, _ = await self.begin()
+        watcher, told = await self.connect()
+        cloth = scene.scene["cloths"][0]
+        self.assertEqual(cloth["material"], {"structural": 100, "shear": 10, "bending": 0.01})  # the scene damps nothing
+        self.assertEqual(scene.scene["material_tunable"]["bending"], {"range": [0, 1e9], "unit": "N/m"})
+        ball = await scene.add_ball([0, -3, 0], radius=0.3, friction=0.25)
+        await scene.tune_cloth(0, structural=700, bending=0)
+        await scene.set_friction(0.9, ball=ball)
+        await scene.step(1)
+        await watcher.next_frame(lambda frame: frame.stamp.f == 1)
+        events = {message["kind"]: message for message in told if message["op"] == "event"}
+        self.assertEqual([each["friction"] for each in events["ball.add"]["balls"]], [0.25])
+        self.assertEqual(events["cloth.tune"]["material"], {"structural": 700, "shear": 10, "bending": 0})
+        self.assertEqual([each["friction"] for each in events["friction"]["balls"]], [0.9])
+        self.assertEqual(events["friction"]["frictions"], [])
+        for wrong in [scene.tune_cloth(0, damping=1), scene.tune_cloth(1, shear=1), scene.set_friction(11),
+                      scene.set_friction(1, ball=99), scene.set_friction(1, obstacle=0)]:
+            with self.assertRaises(weft.WeftError) as refused:
+                await wrong
+            self.assertIn(refused.exception.code, ("unknown_member", "not_found", "range"))
 
     async def test_counts_towards_the_rate(self):
         scene, _ = await self.begin()

@@ -29,7 +29,7 @@ export const SUBPROTOCOL = 'weft.v1';
  * @property {number} quantum m: positions are exact to half of it
  * @property {Float32Array} positions x, y, z interleaved, row by row, m
  * @property {number[]} torn faces not to be drawn, ascending: r * (cols - 1) + c is the cell right of and below node (r, c)
- * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic'}} Ball
+ * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic', friction?: number}} Ball friction: in `scene` and events
  * @typedef {{shape: 'plane', position: Vector, normal: Vector}} Plane
  * @typedef {{shape: 'box', position: Vector, size: Vector, quaternion: [number, number, number, number]}} Box w, x, y, z
  * @typedef {{shape: 'capsule', position: Vector, radius: number, length: number, quaternion: [number, number, number, number]}} Capsule w, x, y, z
@@ -38,7 +38,7 @@ export const SUBPROTOCOL = 'weft.v1';
  *   how many there are: `surface` has them; w, x, y, z
  * @typedef {{vertices: number[], triangles: number[]}} Surface x, y, z of each vertex in the mesh's own axes, m; three vertices a triangle,
  *   counterclockwise as seen from outside
- * @typedef {Plane|Box|Capsule|Mesh} Obstacle in `scene`; skip shapes that you do not know
+ * @typedef {(Plane|Box|Capsule|Mesh) & {friction?: number}} Obstacle in `scene`; skip shapes that you do not know
  * @typedef {{obstacle: number, position: Vector, quaternion: [number, number, number, number]}} MovedObstacle its place in `scene`; w, x, y, z
  * @typedef {{stamp: Stamp, cloths: Cloth[], balls: Ball[], obstacles: MovedObstacle[]}} Frame obstacles: those that are not where `scene` says
  */
@@ -401,7 +401,7 @@ export class WeftClient {
     return ok;
   }
 
-  /** @param {{position: Vector, radius: number, velocity?: Vector, motion?: 'kinematic'|'dynamic', mass?: number}} ball @returns {Promise<number>} its id */
+  /** @param {{position: Vector, radius: number, velocity?: Vector, motion?: 'kinematic'|'dynamic', mass?: number, friction?: number}} ball @returns {Promise<number>} its id */
   async addBall(ball) {
     return (await this.send('ball.add', ball)).ball;
   }
@@ -475,6 +475,24 @@ export class WeftClient {
   /** Takes away the pin that holds (u, v), or the nearest one. @param {number} cloth @param {number} u @param {number} v */
   unpin(cloth, u, v) {
     return this.send('cloth.unpin', { cloth, u, v });
+  }
+
+  /**
+   * Changes numbers of a cloth's material, for all viewers.
+   * @param {number} cloth its number in `scene`
+   * @param {Object<string, number|number[]>} parameters those to change, SI units; `scene`'s `material_tunable` has their names and ranges
+   */
+  tuneCloth(cloth, parameters) {
+    return this.send('cloth.tune', { cloth, parameters });
+  }
+
+  /**
+   * Sets Coulomb's coefficient of what cloth slides on, for all viewers.
+   * @param {number} friction 0 to 10
+   * @param {{ball?: number, obstacle?: number}} [of] one of them, an obstacle by its place in `scene`; without it every ball and obstacle that there is
+   */
+  setFriction(friction, { ball, obstacle } = {}) {
+    return this.send('friction.set', { friction, ball, obstacle });
   }
 
   /**

@@ -435,9 +435,10 @@ class Client:
         return await self.send("scene.join", scene=scene)
 
     async def add_ball(self, position, radius: float, *, velocity=None, motion: typing.Optional[str] = None,
-                       mass: typing.Optional[float] = None) -> int:
-        """Adds a ball (m, m/s, kg; motion "kinematic" or "dynamic") and returns its id."""
-        ok = await self.send("ball.add", position=position, radius=radius, velocity=velocity, motion=motion, mass=mass)
+                       mass: typing.Optional[float] = None, friction: typing.Optional[float] = None) -> int:
+        """Adds a ball (m, m/s, kg; motion "kinematic" or "dynamic"; friction from 0 to 10) and returns its id."""
+        ok = await self.send("ball.add", position=position, radius=radius, velocity=velocity, motion=motion, mass=mass,
+                             friction=friction)
         return ok["ball"]
 
     async def move_ball(self, ball: int, position) -> dict:
@@ -496,6 +497,16 @@ class Client:
     async def unpin(self, cloth: int, u: float, v: float) -> dict:
         """Takes away the pin that holds (u, v), or the nearest one."""
         return await self.send("cloth.unpin", cloth=cloth, u=u, v=v)
+
+    async def tune_cloth(self, cloth: int, **parameters) -> dict:
+        """Changes numbers of a cloth's material, for all viewers: numbers or arrays, in SI units; `scene`'s `material_tunable`
+        has their names and ranges."""
+        return await self.send("cloth.tune", cloth=cloth, parameters=parameters)
+
+    async def set_friction(self, friction: float, *, ball: typing.Optional[int] = None, obstacle: typing.Optional[int] = None) -> dict:
+        """Sets Coulomb's coefficient, from 0 to 10, of what cloth slides on, for all viewers: of a ball, or of an obstacle by its
+        place in `scene`; with neither of every one that there is."""
+        return await self.send("friction.set", friction=friction, ball=ball, obstacle=obstacle)
 
     async def set_effect(self, effect: str, on: bool) -> dict:
         """Takes one of the scene's effects away, or brings it back, for all viewers."""

@@ -1,4 +1,4 @@
-#include "host/effect_tuning.h"
+#include "host/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "cloth/effects/effect.h"
 #include "protocol/member.h"
 #include "scene/effect_parameters.h"
+#include "scene/material_parameters.h"
 
 namespace weft::host {
 namespace {
@@ -16,6 +17,8 @@ using protocol::Bounds;
 using protocol::Numbers;
 using protocol::pointer_to;
 using scene::EffectParameter;
+using scene::MaterialParameter;
+using scene::ParameterKind;
 
 /// As a client writes it: whole numbers without a fraction.
 json number_json(double number) {
@@ -31,7 +34,7 @@ json numbers_json(const Numbers& numbers) {
   return array;
 }
 
-std::string kind_of(const EffectParameter& parameter, const Bounds& bounds) {
+std::string kind_of(const ParameterKind& parameter, const Bounds& bounds) {
   std::string one = protocol::kind_of(double{}, bounds);
   if (parameter.count == 1) return one;
   const std::string array =
@@ -39,7 +42,7 @@ std::string kind_of(const EffectParameter& parameter, const Bounds& bounds) {
   return parameter.one_for_all ? one + " or " + array : array;
 }
 
-protocol::Fault check(const EffectParameter& parameter, const std::string& path, const Numbers& numbers) {
+protocol::Fault check(const ParameterKind& parameter, const std::string& path, const Numbers& numbers) {
   const Bounds bounds{parameter.range.min, parameter.range.max, parameter.range.unit};
   const bool one = numbers.size() == 1 && parameter.takes_one();
   if (!one && numbers.size() != parameter.count)
@@ -53,28 +56,41 @@ protocol::Fault check(const EffectParameter& parameter, const std::string& path,
 }
 
 /// "in aerodynamics only air_density, drag, lift".
-std::string known_in(const EffectDescription& effect) {
+template <class Known>
+std::string known_in(const char* owner, const std::vector<Known>& known) {
   std::string names;
-  for (const EffectParameter& parameter : scene::parameters_of(effect))
+  for (const ParameterKind& parameter : known)
     names += (names.empty() ? " only " : ", ") + std::string(parameter.name);
-  return "in " + std::string(name_of(effect)) + (names.empty() ? " none" : names);
+  return "in " + std::string(owner) + (names.empty() ? " none" : names);
 }
 
-protocol::Fault tune_one(const protocol::EffectTune& command, EffectDescription& effect) {
-  const std::vector<EffectParameter>& known = scene::parameters_of(effect);
-  for (const auto& [name, numbers] : command.parameters) {
+/// Gives `tuned`, which messages call `owner`, those of its known parameters that are given.
+template <class Owner, class Known>
+protocol::Fault tune_one(const protocol::Parameters& given, const char* owner,
+                         const std::vector<Known>& known, Owner& tuned) {
+  for (const auto& [name, numbers] : given) {
     const std::string path = pointer_to("/parameters", name);
     const auto parameter =
         std::find_if(known.begin(), known.end(),
-                     [&wanted = name](const EffectParameter& each) { return each.name == wanted; });
+                     [&wanted = name](const ParameterKind& each) { return each.name == wanted; });
     if (parameter == known.end())
-      return protocol::refuse("unknown_member", path, numbers_json(numbers), known_in(effect));
+      return protocol::refuse("unknown_member", path, numbers_json(numbers), known_in(owner, known));
     if (auto fault = check(*parameter, path, numbers)) return fault;
     Numbers all = numbers;
     all.resize(parameter->count, numbers[0]);
-    parameter->write(effect, all);
+    parameter->write(tuned, all);
   }
   return {};
+}
+
+protocol::Error error_of(const protocol::JsonFault& fault) {
+  return {std::nullopt, fault.code, fault.path, fault.message};
+}
+
+/// What a number may be.
+json range_json(const ParameterKind& parameter) {
+  const scene::Range& range = parameter.range;
+  return {{"range", {number_json(range.min), number_json(range.max)}}, {"unit", range.unit}};
 }
 
 }  // namespace
@@ -84,10 +100,21 @@ std::optional<protocol::Error> tune(const protocol::EffectTune& command,
   std::vector<EffectDescription> tuned = effects;
   for (EffectDescription& effect : tuned) {
     if (name_of(effect) != command.effect) continue;
-    if (const auto fault = tune_one(command, effect))
-      return protocol::Error{std::nullopt, fault->code, fault->path, fault->message};
+    if (const auto fault =
+            tune_one(command.parameters, name_of(effect), scene::parameters_of(effect), effect))
+      return error_of(*fault);
   }
   effects = std::move(tuned);
+  return {};
+}
+
+std::optional<protocol::Error> tune(const protocol::ClothTune& command,
+                                    const std::vector<EffectDescription>& effects, Material& material) {
+  Material tuned = material;
+  if (const auto fault =
+          tune_one(command.parameters, "the material", scene::material_parameters(effects), tuned))
+    return error_of(*fault);
+  material = tuned;
   return {};
 }
 
@@ -110,11 +137,30 @@ json parameters_json(const std::vector<EffectDescription>& effects) {
 json tunable_json(const std::vector<EffectDescription>& effects) {
   json all = json::object();
   for (const EffectDescription& effect : effects) {
-    for (const EffectParameter& parameter : scene::parameters_of(effect)) {
-      const scene::Range& range = parameter.range;
-      all[name_of(effect)][parameter.name] = {{"range", {number_json(range.min), number_json(range.max)}},
-                                              {"unit", range.unit}};
-    }
+    for (const EffectParameter& parameter : scene::parameters_of(effect))
+      all[name_of(effect)][parameter.name] = range_json(parameter);
+  }
+  return all;
+}
+
+json material_json(const Material& material, const std::vector<EffectDescription>& effects) {
+  json numbers;
+  for (const MaterialParameter& parameter : scene::material_parameters(effects))
+    numbers[parameter.name] = numbers_json(parameter.read(material));
+  return numbers;
+}
+
+json materials_json(const std::vector<Material>& materials, const std::vector<EffectDescription>& effects) {
+  json all = json::array();
+  for (const Material& material : materials) all.push_back(material_json(material, effects));
+  return all;
+}
+
+json material_tunable_json(const std::vector<EffectDescription>& effects) {
+  json all;
+  for (const MaterialParameter& parameter : scene::material_parameters(effects)) {
+    all[parameter.name] = range_json(parameter);
+    if (parameter.effect != nullptr) all[parameter.name]["effect"] = parameter.effect;
   }
   return all;
 }
