@@ -3,9 +3,11 @@ import {CameraRig, ViewReporter} from './camera_rig.js';
 import {ClothHand} from './cloth_hand.js';
 import {CostPanel} from './cost_panel.js';
 import {EffectsPanel} from './effects_panel.js';
+import {publishHook} from './hook.js';
 import {Hud} from './hud.js';
 import {listenToKeys} from './keyboard.js';
 import {Link} from './link.js';
+import {MaterialPanel} from './material_panel.js';
 import {ObstaclesPanel} from './obstacles_panel.js';
 import {Panel} from './panel.js';
 import {addressOfScene, readSettings} from './settings.js';
@@ -78,6 +80,9 @@ function start(settings) {
     },
     chooseBall: choose,
     moveBall: (ball, position) => command({op: 'ball.move', ball, position}),
+    setBallFriction: async (ball, friction) => {
+      if (!(await command({op: 'friction.set', friction, ball}))) panel.ballFriction.takeBack(ball);
+    },
     setHandTool: (on) => {
       clothHand.setTool(on);
       panel.setHandTool(on);
@@ -97,6 +102,11 @@ function start(settings) {
       if (!(await command({op: 'effect.tune', effect, parameters}))) effects.takeBack(effect);
     },
   });
+  const material = new MaterialPanel({
+    tune: async (cloth, parameters) => {
+      if (!(await command({op: 'cloth.tune', cloth, parameters}))) material.takeBack(cloth);
+    },
+  });
   const zones = new ZonesPanel({
     setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
     showZones: (on) => show.setZonesShown(on),
@@ -111,6 +121,9 @@ function start(settings) {
     throw: (obstacle) => {
       const velocity = aimedAtCloth(show.obstacles.place(obstacle));
       if (velocity) command({op: 'obstacle.throw', obstacle, velocity});
+    },
+    setFriction: async (obstacle, friction) => {
+      if (!(await command({op: 'friction.set', friction, obstacle}))) obstacles.friction.takeBack(obstacle);
     },
   });
   let effectsOff = [];
@@ -173,6 +186,7 @@ function start(settings) {
     obstacles.setLive(detail.state === 'open');
     cost.setLive(detail.state === 'open');
     effects.setLive(detail.state === 'open');
+    material.setLive(detail.state === 'open');
     zones.setLive(detail.state === 'open');
     retryAt = null;
     if (detail.state === 'open') {
@@ -189,6 +203,11 @@ function start(settings) {
       document.getElementById('scene').disabled = false;
     }
   });
+
+  /** Whether a reset gives the scene other numbers than it has. */
+  const changes = ({parameters = {}, materials = [], frictions = [], balls = []}) =>
+    JSON.stringify([parameters, materials]) !== JSON.stringify([effects.parameters, material.materials]) ||
+    obstacles.friction.differs([...frictions.entries()]) || panel.ballFriction.differs(balls.map(({ball, friction}) => [ball, friction]));
 
   const tell = (topic, text) => {
     if (text === null) notices.delete(topic);
@@ -218,7 +237,9 @@ function start(settings) {
       panel.setWind(show.wind, show.hasWind);
       zones.begin(show.wind);
       obstacles.begin(message.obstacles ?? []);
+      panel.setBallFrictions(message.balls);
       effects.begin(message);
+      material.begin(message);
       setEffectsOff(message.effects_off ?? []);
       tellNothing();
       cost.begin();
@@ -241,16 +262,23 @@ function start(settings) {
         effects.setParameters(message.effect, message.parameters);
         cost.begin();
       }
+      if (message.kind === 'cloth.tune') {
+        material.setMaterial(message.cloth, message.material);
+        cost.begin();
+      }
+      if (message.kind === 'friction') cost.begin();
       if (message.kind === 'reset') {
-        const own = message.parameters ?? {};
-        if (effectsOff.length > 0 || JSON.stringify(own) !== JSON.stringify(effects.parameters)) cost.begin();
+        if (effectsOff.length > 0 || changes(message)) cost.begin();
         setEffectsOff([]);
-        for (const [effect, parameters] of Object.entries(own)) effects.setParameters(effect, parameters);
+        for (const [effect, parameters] of Object.entries(message.parameters ?? {})) effects.setParameters(effect, parameters);
+        message.materials?.forEach((own, cloth) => material.setMaterial(cloth, own));
         tellNothing();
         clothHand.forget();
         hand.forget();
         message.pins?.forEach((pins, cloth) => show.setPins(cloth, pins));
       }
+      if (message.balls) panel.setBallFrictions(message.balls);
+      if (message.frictions) obstacles.setFrictions(message.frictions);
     },
     stats: (message) => {
       latest.stats = message;
@@ -322,7 +350,7 @@ function start(settings) {
 
   requestAnimationFrame(draw);
   link.open(settings.server, settings.scene);
-  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff, effects});
+  publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff, effects, material, panel, obstacles});
 }
 
 /** Velocity of `speed` from one point to another, raised so that gravity brings it down onto the target. */
@@ -332,48 +360,4 @@ function aimed(from, to, speed) {
   const velocity = way.map((value) => (value / distance) * speed);
   velocity[1] += 0.5 * 9.81 * (distance / speed);
   return velocity;
-}
-
-/** `window.weft`: what tests and the curious read. */
-function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff, effects}) {
-  window.weft = {
-    get stats() {
-      return {
-        connected: link.connected,
-        scene: show.description?.name ?? null,
-        frames: counts.total,
-        cloths: show.levels(rig.eye),
-        balls: show.balls.ids.map((id) => show.balls.ball(id)),
-        distance: rig.distance,
-        eye: rig.eye,
-        settled: !show.moving && !stage.changed && !rig.flight,
-        lastFrame: show.timeline.newest?.stamp ?? null,
-        wind: show.wind,
-        obstacles: show.obstacles.meshes.map((_, index) => show.obstacles.place(index)),
-        hand: clothHand.held,
-        effectsOff: effectsOff(),
-        parameters: effects.parameters,
-        pins: Object.fromEntries(show.marks.held),
-        server: latest.stats,
-      };
-    },
-    /** Newest decoded positions of a cloth, as plain numbers. */
-    positions(cloth = 0) {
-      const record = show.timeline.newest?.cloths.find((each) => each.cloth === cloth);
-      return record ? Array.from(record.positions) : null;
-    },
-    setCameraDistance(distance) {
-      rig.goTo(distance);
-    },
-    /** The ball drawn at a point of the page, or null. */
-    ballAt: (x, y) => hand.thingAt(x, y)?.ball ?? null,
-    /** The obstacle to be dragged at a point of the page, or null. */
-    obstacleAt: (x, y) => hand.thingAt(x, y)?.obstacle ?? null,
-    /** Where a point of the scene is on the page, CSS pixels. */
-    toPage([x, y, z]) {
-      const point = stage.camera.position.clone().set(x, y, z).project(stage.camera);
-      const {clientWidth, clientHeight} = stage.renderer.domElement;
-      return [((point.x + 1) / 2) * clientWidth, ((1 - point.y) / 2) * clientHeight];
-    },
-  };
 }

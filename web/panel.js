@@ -1,3 +1,4 @@
+import {FrictionRow} from './friction_row.js';
 import {PlaceFields} from './place_fields.js';
 import {anglesOf, directionOf} from './wind_angles.js';
 
@@ -21,6 +22,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
  * @property {(ball: number) => void} throwBall
  * @property {(ball: number) => void} chooseBall
  * @property {(ball: number, position: number[]) => void} moveBall
+ * @property {(ball: number, friction: number) => void} setBallFriction
  * @property {(on: boolean) => void} setHandTool
  */
 export class Panel {
@@ -104,12 +106,18 @@ export class Panel {
       select.replaceChildren(...ids.map((id) => new Option(`ball ${id}`, String(id))));
     }
     if (chosen !== null && select.value !== String(chosen)) select.value = String(chosen);
+    this.ballFriction.choose(chosen);
     this.#enableBalls();
   }
 
   /** @param {number[]|undefined} position of the chosen ball, m */
   setBallPlace(position) {
     this.ballPlace.show(position);
+  }
+
+  /** @param {{ball: number, friction?: number}[]} balls the scene's, as messages tell them */
+  setBallFrictions(balls) {
+    this.ballFriction.set(balls.map(({ball, friction}) => [ball, friction]));
   }
 
   /** @returns {[number, number]} what the panel covers of the window's right and bottom, CSS pixels */
@@ -131,6 +139,7 @@ export class Panel {
     const none = !this.live || this.ballIds.length === 0;
     for (const id of ['ball-remove', 'ball-throw', 'ball']) byId(id).disabled = none;
     this.ballPlace.enable(!none);
+    this.ballFriction.enable(!none);
   }
 
   #wireButtons() {
@@ -182,8 +191,10 @@ export class Panel {
     byId('ball-throw').addEventListener('click', () => actions.throwBall(this.#chosenBall()));
     byId('ball').addEventListener('change', () => {
       this.ballPlace.release();
+      this.ballFriction.choose(this.#chosenBall());
       actions.chooseBall(this.#chosenBall());
     });
+    this.ballFriction = new FrictionRow(byId('ball-friction'), actions.setBallFriction);
     this.ballPlace = new PlaceFields(byId('ball-place'), (position) => actions.moveBall(this.#chosenBall(), position));
   }
 

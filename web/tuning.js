@@ -1,4 +1,4 @@
-/** Least time between two `effect.tune`, ms. */
+/** Least time between two messages of a Tuner, ms. */
 export const kTuneMs = 100;
 
 /** 1, 2 or 5 times a power of ten, at least `number`. */
@@ -20,27 +20,27 @@ export function sliderSpan(values, [low, high]) {
 /** `m/s2` as people write it. */
 export const unitText = (unit) => unit.replace(/(?<=[a-z])2\b/g, '²').replace(/(?<=[a-z])3\b/g, '³');
 
-/** Sends what parameters were set to last: the first at once, then the newest, one effect a message, at most one in kTuneMs. */
+/** Sends what the numbers of effects, cloths and the like were set to last: the first at once, then the newest, of one thing a message, at most one in kTuneMs. */
 export class Tuner {
-  #waiting = new Map();  // of each effect
+  #waiting = new Map();  // of each thing
   #timer = null;
 
-  /** @param {(effect: string, parameters: object) => void} send */
+  /** @param {(thing: string|number, parameters: object) => void} send */
   constructor(send) {
     this.send = send;
   }
 
-  /** @param {string} effect @param {string} name @param {number|number[]} value */
-  set(effect, name, value) {
-    this.#waiting.set(effect, {...this.#waiting.get(effect), [name]: value});
+  /** @param {string|number} thing @param {string} name @param {number|number[]} value */
+  set(thing, name, value) {
+    this.#waiting.set(thing, {...this.#waiting.get(thing), [name]: value});
     if (this.#timer === null) this.#sendNext();
   }
 
   #sendNext() {
     this.#timer = null;
-    for (const [effect, parameters] of this.#waiting) {
-      this.#waiting.delete(effect);
-      this.send(effect, parameters);
+    for (const [thing, parameters] of this.#waiting) {
+      this.#waiting.delete(thing);
+      this.send(thing, parameters);
       this.#timer = setTimeout(() => this.#sendNext(), kTuneMs);
       return;
     }

@@ -5,7 +5,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
 const make = (tag, properties) => Object.assign(document.createElement(tag), properties);
 const numberText = (number) => String(Number(number.toPrecision(6)));
 
-/** One number of an effect's parameter: a slider, and a field for any value in the range. */
+/** One number that can be set: a slider, and a field for any value in the range. */
 export class TuningRow {
   /**
    * @param {{label: string, id: string, range: number[], unit: string, reach: number[]}} number `reach`: what the slider should reach at least
@@ -32,6 +32,12 @@ export class TuningRow {
 
   enable(on) {
     this.slider.disabled = this.field.disabled = !on;
+  }
+
+  /** Another thing's number is shown: what was set is not waited for. @param {number} value */
+  begin(value) {
+    this.value = value;
+    this.takeBack();
   }
 
   /** What the server says; shown once the viewer's hand is off, and not in a field that is typed in. @param {number} value */

@@ -39,7 +39,7 @@ test('a viewer who comes later sees it too, and may switch it on again', async (
 });
 
 test('a reset brings all back', async () => {
-  await page.getByLabel('Damping').uncheck();
+  await page.getByRole('checkbox', {name: 'Damping'}).uncheck();
   await until(other, () => weft.stats.effectsOff.includes('damping'));
   await page.click('#reset');
   await until(other, () => weft.stats.effectsOff.length === 0);
