@@ -15,12 +15,13 @@ namespace weft {
 ///
 /// After it the springs' energy is compared with what the linearisation promised. Off by less than the error
 /// allowed, no further iteration is made: a cloth near rest costs one. If it is off by as much as a good part
-/// of the motion's energy, or in one spring by many nodes' part of it, if a contact's constraint pulled, if
-/// nodes are inside a solid that none holds, if only a share of the change was taken, as contacts that the
-/// system did not hold came in its way (best_share), or if the step brings in energy, some further ones are
-/// made; if it still brings in energy, the step is taken back and made again by backward Euler with a line
-/// search: each change is halved until it brings in none (Nocedal and Wright, Numerical Optimization, 2006,
-/// chapter 3). Not searched at once, as a halved change does not keep the momentum.
+/// of the motion's energy, or in one spring by many nodes' part of it, if a spring is past a strain limit
+/// that it was short of before, if a contact's constraint pulled, if nodes are inside a solid that none
+/// holds, if only a share of the change was taken, as contacts that the system did not hold came in its way
+/// (best_share), or if the step brings in energy, some further ones are made; if it still brings in energy,
+/// the step is taken back and made again by backward Euler with a line search: each change is halved until it
+/// brings in none (Nocedal and Wright, Numerical Optimization, 2006, chapter 3). Not searched at once, as a
+/// halved change does not keep the momentum.
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
@@ -99,6 +100,7 @@ class Implicit final : public Integrator<Real> {
     /// How far the springs' and the gas's linearisation is off, or what is left to gain, J.
     double error = 0;
     double largest = 0;  ///< of that, in one spring, J
+    double struck = 0;   ///< SpringModelError's
     bool taken = true;   ///< not dropped
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.

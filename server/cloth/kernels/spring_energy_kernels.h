@@ -8,6 +8,9 @@ struct SpringModelError {
   double sum = 0;        ///< energy less promise: above 0, the springs resist more than was reckoned
   double magnitude = 0;  ///< the same without its sign, added up spring by spring
   double largest = 0;    ///< of that, in one spring
+  /// The farthest that one is then past a limit (limited_kernels.h) that it was short of before, as a share
+  /// of its length at rest: what the linearisation knew nothing of. 0 of springs without limits.
+  double struck = 0;
 };
 
 /// Each spring's energy 1/2 k (l - l0)^2 at position + change, less its second-order model at `position` with

@@ -21,6 +21,7 @@ struct Lanes {
   alignas(64) Real sum[kLinkGroup]{};
   alignas(64) Real magnitude[kLinkGroup]{};
   alignas(64) Real largest[kLinkGroup]{};
+  alignas(64) Real struck[kLinkGroup]{};
 
   [[gnu::always_inline]] void flush(SpringModelError& error) {
     for (int lane = 0; lane < kLinkGroup; ++lane) {
@@ -31,6 +32,7 @@ struct Lanes {
   }
   [[gnu::always_inline]] void find_largest(SpringModelError& error) const {
     error.largest = static_cast<double>(*std::max_element(std::begin(largest), std::end(largest)));
+    error.struck = static_cast<double>(*std::max_element(std::begin(struck), std::end(struck)));
   }
 };
 
@@ -73,6 +75,8 @@ template <class Real, bool kLimited>
         const Real stays = is_over * unit_step(past_then, found);
         const Real gain = stays * extra + (1 - stays) * (found - reckoned);
         twice += excess * (gain * (found + reckoned) - over / length * turned);
+        const Real there = unit_step(stiffness[i], stiffness[i]);  // 0 where there is no spring
+        lanes.struck[lane] = std::max(lanes.struck[lane], there * (1 - is_over) * found / rest_length);
       }
       const Real error = share * stiffness[i] / 2 * twice;
       lanes.sum[lane] += error;
