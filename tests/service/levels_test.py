@@ -60,7 +60,7 @@ class PythonScript(unittest.IsolatedAsyncioTestCase):
         watcher, told = await self.connect()
         ball = await thrower.add_ball([0, 0.5, 2], radius=0.2)
         event = await self.told(watcher, told, op="event", kind="ball.add", ball=ball)
-        self.assertIn({"ball": ball, "position": [0, 0.5, 2], "radius": 0.2, "motion": "kinematic"}, event["balls"])
+        self.assertIn({"ball": ball, "position": [0, 0.5, 2], "radius": 0.2, "motion": "kinematic", "friction": 0}, event["balls"])
         ok = await thrower.throw_ball(ball, [0, 1, -6])
         await self.told(watcher, told, op="event", kind="ball.throw", ball=ball)
 

@@ -21,9 +21,9 @@ class Meshes(unittest.TestCase):
 
         obstacles, box, tetrahedron = asyncio.run(look())
         self.assertEqual(obstacles[1], {"shape": "mesh", "position": [0, 1, 0], "vertices": 8, "triangles": 12,
-                                        "quaternion": [0, 0, 1, 0]})
+                                        "quaternion": [0, 0, 1, 0], "friction": 0})
         self.assertEqual(obstacles[2], {"shape": "convex", "position": [0, 0, 0], "vertices": 4, "triangles": 4,
-                                        "quaternion": [1, 0, 0, 0]})
+                                        "quaternion": [1, 0, 0, 0], "friction": 0})
         # The file's box of 1 x 2 x 3 m; counterclockwise from outside, though the file has it the other way round.
         self.assertEqual((len(box["vertices"]), len(box["triangles"])), (24, 36))
         corners = [box["vertices"][3 * i:3 * i + 3] for i in range(8)]

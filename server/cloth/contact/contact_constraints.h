@@ -94,14 +94,16 @@ class ContactConstraints {
     Vec3 solid_move;                ///< in the substep if nothing bends its way, m
     double holds;                   ///< at most, by friction, N
     double slid;                    ///< along the surface in the substep, if it goes on as before, m
-    double speeding_up;             ///< by how much more if what pulls at it goes on to, m
-    double sliding;                 ///< that is expected, m: speeding up as it was already to in the last one
+    double sliding;                 ///< that is expected, m
     double width;                   ///< of the solid, its inner radius, m
     double stiffness = 0;           ///< N/m
     double friction_stiffness = 0;  ///< N/m
     double force = 0;               ///< along the normal, N
+    bool has_stuck = false;         ///< since it touches
+    double speeding_up = 0;         ///< then: by how much more it will slide by what pulls at it, m
     bool released = false;
     Vec3 grip{0, 0, 0};  ///< of static friction when the substep begins; after finish, when it ends, N
+    bool sticks() const { return friction_stiffness > 0 && friction_stiffness == stiffness; }
   };
   /// The force along the surface at `moved`, N.
   static Vec3 friction(const Constraint& c, const Vec3& moved);
@@ -112,8 +114,8 @@ class ContactConstraints {
   /// in kg.
   Constraint held_by(const Touch& touch, const Solid& solid, const Surface& surface, const Vec3& place,
                      const Vec3& way, double mass) const;
-  /// By how much more than `slid`, m, a node will slide in the substep by what pulled at it in the last one,
-  /// when `last` held it, but for a friction of `holds`, N.
+  /// By how much more than `slid`, m, a node that has stuck will slide in the substep by what pulled at it in
+  /// the last one, when `last` held it, but for a friction of `holds`, N.
   double speeding_up(const Constraint& last, double slid, double holds, double mass) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
