@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "cloth/clock.h"
 #include "cloth/refine.h"
 #include "cloth/start.h"
 #include "cloth/tear/mend.h"
@@ -97,8 +96,9 @@ bool Cloth<Real>::apply_pending_level() {
   const int target = pending_level_.value_or(level_);
   pending_level_.reset();
   const bool changes = target != level_;
-  if (changes) guard_.repair(particles_);
-  if (changes) held_ = elastic_energy();
+  if (!changes) return false;
+  guard_.repair(particles_);
+  held_ = elastic_energy();
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
@@ -113,16 +113,17 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
+  raised_ = elastic_energy() - held_;
   // The paper's own rules change levels as the paper does. An implicit step finds its balance by itself, but
   // what springs hold more than before it would make motion.
-  if (changes && unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
+  if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
     if (!is_implicit(guard_.method())) {
       unsettled_ = Unsettled::by_level;
-    } else if (elastic_energy() > held_) {
+    } else if (raised_ > 0) {
       unsettled_ = Unsettled::by_gain;
     }
   }
-  return changes;
+  return true;
 }
 
 template <class Real>
@@ -219,7 +220,9 @@ void Cloth<Real>::set_material(const Material& material) {
   if (material == description_.material) return;
   guard_.repair(particles_);
   description_.material = material;
+  const double before = elastic_energy();
   make_springs();
+  held_ += elastic_energy() - before;  // what it gains so is no level's
   integrator_->stiffness_changed();
   hand_to_guard();
   wake();
@@ -301,102 +304,6 @@ void Cloth<Real>::set_pins() {
   integrator_->restart();
   hand_to_guard();
   wake();
-}
-
-template <class Real>
-AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
-  using Verdict = typename StepGuard<Real>::Verdict;
-  solids_ = solids;  // nothing is given yet, and nothing while it stands still
-  if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
-  if (resting() && grabs_ != nullptr) wake();
-  if (gas_ && gas_->fills(time)) wake();
-  if (!solids.empty() && is_put_onto(particles_, contact(), solids)) unsettled_ = Unsettled::by_solid;
-  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
-    return {.nodes_in_contact = nodes_in_contact_};
-  for (;;) {
-    if (unsettled_ != Unsettled::no) {
-      settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
-             solids.empty() ? nullptr : &contact(), solids, dt, held_);
-    }
-    const Rung rung = guard_.rung();
-    AdvanceReport report = attempt(air, time, dt);
-    const auto begin = Clock::now();
-    const Verdict verdict = guard_.judge(particles_, report);
-    if (verdict == Verdict::good) {
-      if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
-      sleep_.stepped(guard_.speed(), dt, particles_, solids);
-      time_ = time + dt;
-      unsettled_ = Unsettled::no;
-      nodes_in_contact_ = report.nodes_in_contact;
-      report.check_seconds = seconds(Clock::now() - begin);
-      if (tearing_) tear();
-      return report;
-    }
-    forget_attempt();
-    solids_ = solids;
-    if (verdict == Verdict::stand_still) return {};
-  }
-}
-
-template <class Real>
-Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
-  return {.springs = &springs_,
-          .effects = &effects_,
-          .context = context,
-          .plate = plate(),
-          .seam = seam(),
-          .gas = gas_.get()};
-}
-
-template <class Real>
-AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
-  EffectContext context{&description_, &air.wind(), time};
-  if (torn_) context.whole_faces = &whole_faces_;
-  context.gusts = air.gusts();
-  context.node_air = node_air(air, time, dt);
-  Forces<Real> all = forces(context);
-  if (pins_.moving()) all.pins = &pins_;
-  all.layered = layers_ != nullptr;
-  if (all.layered && !layers_->empty()) all.layers = layers_;
-  return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
-}
-
-template <class Real>
-const VectorField<float>* Cloth<Real>::node_air(const Air& air, double time, double dt) {
-  const auto feels_wind = [](const auto& effect) { return effect->feels_wind(); };
-  if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_wind)) return nullptr;
-  if (!node_air_) node_air_ = std::make_unique<NodeAir>();
-  const Grid& grid = particles_.grid();
-  return &node_air_->sample(air, particles_, cell(grid), time + dt / 2, dt / 2);
-}
-
-template <class Real>
-void Cloth<Real>::forget_attempt() {
-  // Work arrays that must stay zero outside the grid may hold what is not a number now.
-  make_springs();
-  integrator_ = make_integrator<Real>(guard_.method());
-  earlier_contacts_ = contact_counters();
-  contact_.reset();
-  nodes_in_contact_ = 0;
-}
-
-template <class Real>
-Contact<Real>& Cloth<Real>::contact() {
-  if (!contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
-  return *contact_;
-}
-
-template <class Real>
-bool Cloth<Real>::meets(const Solid& solid, double dt) {
-  const std::vector<Touch>& touches = contact().touches();
-  return std::any_of(touches.begin(), touches.end(),
-                     [&](const Touch& t) { return t.collider == solid.id; }) ||
-         !contact().foresee(particles_, {solid}, {0, 1, dt}).empty();
-}
-
-template <class Real>
-void Cloth<Real>::push_balls(Colliders& colliders) const {
-  colliders.push(solids_);
 }
 
 template class Cloth<float>;

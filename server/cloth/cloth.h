@@ -42,8 +42,11 @@ class Cloth {
   /// Asks for a level, clamped to the cloth's own limits; it is reached before the next step.
   void request_level(int level);
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
-  /// The next advance() then settles the cloth first; an implicit one where springs gained (settle.h).
+  /// The next step then settles the cloth first; an implicit one where springs gained (settle.h).
   bool apply_pending_level();
+  /// J, that springs and plate held more after the last change of level, and after settling, than before it.
+  /// A coarser grid holds more of the same folds, whose springs they compress; finer ones give it back.
+  double raised_by_level() const { return raised_; }
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
   void set_integrator(const IntegratorDescription& integrator);
@@ -105,6 +108,12 @@ class Cloth {
   /// What the guard did since the last call; cloth and step are for the caller to fill in.
   std::vector<GuardEvent> take_guard_events() { return guard_.take_events(); }
 
+  /// Whether the next step has to settle it first, among these solids; a sleeping one that is wakes.
+  bool unsettled(const std::vector<Solid>& solids);
+  /// Does so now, before whoever looks at where the step begins; otherwise advance() does.
+  void settle_down(const std::vector<Solid>& solids, double time, double dt);
+  /// The next step begins where the cloth has been settled: where nothing has stopped it.
+  bool settled() const { return settled_ != Unsettled::no; }
   /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
   /// push_balls(). Several cloths may do it at the same time, each with its share of a ball that they all
   /// touch (Colliders::share).
@@ -145,7 +154,9 @@ class Cloth {
   int level_ = 0;
   std::optional<int> pending_level_;
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
+  Unsettled settled_ = Unsettled::no;    ///< in this step already; again, if it is taken back
   double held_ = 0;                      ///< J, by springs and plate before the last change of level
+  double raised_ = 0;                    ///< J, raised_by_level()
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;

@@ -89,12 +89,17 @@ void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects
 
 template <class Real>
 bool Simulation<Real>::set_ball_friction(BallId id, double friction) {
+  const Ball* ball = colliders_.find(id);
+  if (ball == nullptr) return false;
+  if (ball->friction == friction) return true;
   for (Cloth<Real>& cloth : cloths_) cloth.wake();
   return colliders_.set_friction(id, friction);
 }
 
 template <class Real>
 bool Simulation<Real>::set_obstacle_friction(std::size_t index, double friction) {
+  if (index >= colliders_.obstacles().size()) return false;
+  if (colliders_.obstacles()[index].solid.friction == friction) return true;
   for (Cloth<Real>& cloth : cloths_) cloth.wake();
   return colliders_.set_obstacle_friction(index, friction);
 }
@@ -155,6 +160,7 @@ void Simulation<Real>::step() {
   colliders_.begin_step(time(), dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>());
   meet_bodies(dt);
   if (cloths_.size() > 1) share_balls(dt);
+  settle_cloths(dt);
   double layers = 0;  // s
   if (layers_) {
     const auto search = Clock::now();
@@ -208,19 +214,37 @@ void Simulation<Real>::share_balls(double dt) {
 }
 
 template <class Real>
-void Simulation<Real>::advance_cloths(double dt) {
-  const auto advance = [&](int i) {
-    const auto cloth = static_cast<std::size_t>(i);
-    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), air_, time(), dt);
-  };
+template <class Work>
+void Simulation<Real>::for_each_cloth(const Work& work) {
   int nodes = 0;
   for (const Cloth<Real>& cloth : cloths_) nodes += cloth.asleep() ? 0 : cloth.particles().grid().nodes();
   const int count = static_cast<int>(cloths_.size());
   if (nodes >= kNodesWorthHelp) {
-    parallel_for(count, advance);
+    parallel_for(count, work);
   } else {
-    for (int i = 0; i < count; ++i) advance(i);
+    for (int i = 0; i < count; ++i) work(i);
   }
+}
+
+template <class Real>
+void Simulation<Real>::settle_cloths(double dt) {
+  const std::vector<Solid>& solids = colliders_.solids();
+  std::vector<char> unsettled(cloths_.size());
+  std::transform(cloths_.begin(), cloths_.end(), unsettled.begin(),
+                 [&](Cloth<Real>& cloth) { return cloth.unsettled(solids) ? 1 : 0; });
+  if (std::none_of(unsettled.begin(), unsettled.end(), [](char each) { return each != 0; })) return;
+  for_each_cloth([&](int i) {
+    const auto cloth = static_cast<std::size_t>(i);
+    if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time(), dt);
+  });
+}
+
+template <class Real>
+void Simulation<Real>::advance_cloths(double dt) {
+  for_each_cloth([&](int i) {
+    const auto cloth = static_cast<std::size_t>(i);
+    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), air_, time(), dt);
+  });
 }
 
 template <class Real>

@@ -131,6 +131,12 @@ class Simulation {
   void meet_bodies(double dt);
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
+  /// Calls work(i) for each cloth, side by side where that helps.
+  template <class Work>
+  void for_each_cloth(const Work& work);
+  /// Those that have to settle do so before contact between cloths looks where they are: what the step then
+  /// keeps apart would else be held in a shape that is not settled.
+  void settle_cloths(double dt);
   /// All cloths through the step, as it is for each of them alone.
   void advance_cloths(double dt);
   void collect_guard_events();

@@ -138,7 +138,8 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   }
   std::transform(nodes_.start.begin(), nodes_.start.end(), nodes_.velocity.begin(), nodes_.end.begin(),
                  [&](const Vec3& x, const Vec3& v) { return x + dt * v; });
-  if (may_be_tangled_) untangle(cloths);
+  if (may_be_tangled_ || std::any_of(cloths.begin(), cloths.end(), [](const auto& c) { return c.settled(); }))
+    untangle(cloths);
   share_pairs(cloths, dt);
 }
 

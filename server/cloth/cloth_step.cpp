@@ -1,0 +1,142 @@
+/// Cloth's steps: what is done around the integrator's.
+#include <algorithm>
+#include <utility>
+
+#include "cloth/clock.h"
+#include "cloth/cloth.h"
+
+namespace weft {
+
+template <class Real>
+bool Cloth<Real>::unsettled(const std::vector<Solid>& solids) {
+  if (!solids.empty() && is_put_onto(particles_, contact(), solids)) {
+    unsettled_ = Unsettled::by_solid;
+    wake();
+  }
+  return unsettled_ != Unsettled::no && !asleep() && !frozen();
+}
+
+template <class Real>
+void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time, double dt) {
+  if (unsettled_ == Unsettled::no) return;
+  settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
+         solids.empty() ? nullptr : &contact(), solids, dt, held_);
+  settled_ = std::exchange(unsettled_, Unsettled::no);
+  if (settled_ == Unsettled::by_level || settled_ == Unsettled::by_gain) raised_ = elastic_energy() - held_;
+}
+
+template <class Real>
+AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
+  using Verdict = typename StepGuard<Real>::Verdict;
+  solids_ = solids;  // nothing is given yet, and nothing while it stands still
+  if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
+  if (resting() && grabs_ != nullptr) wake();
+  if (gas_ && gas_->fills(time)) wake();
+  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
+    return {.nodes_in_contact = nodes_in_contact_};
+  for (;;) {
+    settle_down(solids, time, dt);
+    const Rung rung = guard_.rung();
+    AdvanceReport report = attempt(air, time, dt);
+    const auto begin = Clock::now();
+    const Verdict verdict = guard_.judge(particles_, report);
+    if (verdict == Verdict::good) {
+      if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
+      sleep_.stepped(guard_.speed(), dt, particles_, solids);
+      time_ = time + dt;
+      settled_ = Unsettled::no;
+      nodes_in_contact_ = report.nodes_in_contact;
+      report.check_seconds = seconds(Clock::now() - begin);
+      if (tearing_) tear();
+      return report;
+    }
+    forget_attempt();
+    solids_ = solids;
+    if (verdict == Verdict::stand_still) return {};
+  }
+}
+
+template <class Real>
+Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
+  return {.springs = &springs_,
+          .effects = &effects_,
+          .context = context,
+          .plate = plate(),
+          .seam = seam(),
+          .gas = gas_.get()};
+}
+
+template <class Real>
+AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
+  EffectContext context{&description_, &air.wind(), time};
+  if (torn_) context.whole_faces = &whole_faces_;
+  context.gusts = air.gusts();
+  context.node_air = node_air(air, time, dt);
+  Forces<Real> all = forces(context);
+  if (pins_.moving()) all.pins = &pins_;
+  all.layered = layers_ != nullptr;
+  if (all.layered && !layers_->empty()) all.layers = layers_;
+  return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
+}
+
+template <class Real>
+const VectorField<float>* Cloth<Real>::node_air(const Air& air, double time, double dt) {
+  const auto feels_wind = [](const auto& effect) { return effect->feels_wind(); };
+  if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_wind)) return nullptr;
+  if (!node_air_) node_air_ = std::make_unique<NodeAir>();
+  const Grid& grid = particles_.grid();
+  return &node_air_->sample(air, particles_, cell(grid), time + dt / 2, dt / 2);
+}
+
+template <class Real>
+void Cloth<Real>::forget_attempt() {
+  if (settled_ != Unsettled::no) unsettled_ = std::exchange(settled_, Unsettled::no);
+  // Work arrays that must stay zero outside the grid may hold what is not a number now.
+  make_springs();
+  integrator_ = make_integrator<Real>(guard_.method());
+  earlier_contacts_ = contact_counters();
+  contact_.reset();
+  nodes_in_contact_ = 0;
+}
+
+template <class Real>
+Contact<Real>& Cloth<Real>::contact() {
+  if (!contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
+  return *contact_;
+}
+
+template <class Real>
+bool Cloth<Real>::meets(const Solid& solid, double dt) {
+  const std::vector<Touch>& touches = contact().touches();
+  return std::any_of(touches.begin(), touches.end(),
+                     [&](const Touch& t) { return t.collider == solid.id; }) ||
+         !contact().foresee(particles_, {solid}, {0, 1, dt}).empty();
+}
+
+template <class Real>
+void Cloth<Real>::push_balls(Colliders& colliders) const {
+  colliders.push(solids_);
+}
+
+template bool Cloth<float>::unsettled(const std::vector<Solid>&);
+template void Cloth<float>::settle_down(const std::vector<Solid>&, double, double);
+template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Air&, double, double);
+template Forces<float> Cloth<float>::forces(const EffectContext&);
+template AdvanceReport Cloth<float>::attempt(const Air&, double, double);
+template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
+template void Cloth<float>::forget_attempt();
+template Contact<float>& Cloth<float>::contact();
+template bool Cloth<float>::meets(const Solid&, double);
+template void Cloth<float>::push_balls(Colliders&) const;
+template bool Cloth<double>::unsettled(const std::vector<Solid>&);
+template void Cloth<double>::settle_down(const std::vector<Solid>&, double, double);
+template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const Air&, double, double);
+template Forces<double> Cloth<double>::forces(const EffectContext&);
+template AdvanceReport Cloth<double>::attempt(const Air&, double, double);
+template const VectorField<float>* Cloth<double>::node_air(const Air&, double, double);
+template void Cloth<double>::forget_attempt();
+template Contact<double>& Cloth<double>::contact();
+template bool Cloth<double>::meets(const Solid&, double);
+template void Cloth<double>::push_balls(Colliders&) const;
+
+}  // namespace weft
