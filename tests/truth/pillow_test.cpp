@@ -34,20 +34,31 @@ double volume_after(const SimulationDescription& scene, double seconds) {
 // The teabag problem: a square bag of inextensible sheet, 1 m a side, can hold between 0.2055 and 0.2172 m3
 // (Kepert's bounds, as Wikipedia's "Paper bag problem" gives them; Robin, Paper Bag Problem, Mathematics
 // Today, June 2004, estimates 0.19 and 0.2017). Cells cannot crumple below their own size, so that each level
-// holds less than the next.
+// lacks some volume in proportion to that size. Which of its many equilibria a bag finds is chance, worth
+// 0.003 m3 at level 4: several are blown up, each with offsets of its own, as a perfectly flat one is no
+// usual one.
 TEST(Pillow, HoldsWhatASquareTeabagHolds) {
+  constexpr int kBags = 3;
   const auto held = [](int level) {
-    return volume_after(pillow(BackwardEulerDescription{}, level, {50, {}, 0}), 4);
+    double sum = 0;
+    for (int bag = 1; bag <= kBags; ++bag) {
+      SimulationDescription scene = pillow(BackwardEulerDescription{}, level, {50, {}, 0});
+      scene.cloths[0].perturbation = 1e-3;
+      scene.seed = static_cast<std::uint64_t>(bag);
+      sum += volume_after(scene, 4);
+    }
+    return sum / kBags;
   };
   const double coarse = held(4), middle = held(5), fine = held(6);
   EXPECT_LT(coarse, middle);
   EXPECT_LT(middle, fine);
   EXPECT_GT(fine, 0.18);
   EXPECT_LT(fine, 0.2172 * 1.01);  // it stretches by 50 Pa * 0.3 m / 50000 N/m
-  // Where it goes as a geometric sequence (Aitken).
-  const double limit = fine + (fine - middle) * (fine - middle) / ((middle - coarse) - (fine - middle));
-  EXPECT_GT(limit, 0.19);
-  EXPECT_LT(limit, 0.2172 * 1.01);
+  // What cells of no size would hold (Richardson), from either pair of levels.
+  for (const double limit : {2 * middle - coarse, 2 * fine - middle}) {
+    EXPECT_GT(limit, 0.19);
+    EXPECT_LT(limit, 0.2172 * 1.01);
+  }
 }
 
 // Filled with what has no pressure in 0.05 m3, which the bag can hold at this level, it holds that, p_a (0.05

@@ -99,6 +99,11 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_->kept_stiffness = state_->soft ? state_->soft->max_squared_frequency(particles.mass) /
                                                 forces.springs->max_squared_frequency(particles.mass)
                                           : 1;
+    state_->stretched_to_twice = 0;
+    for (const SpringFamily& family : (state_->soft ? *state_->soft : *forces.springs).families()) {
+      const double count = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
+      state_->stretched_to_twice += count * family.stiffness * family.rest_length * family.rest_length / 2;
+    }
     state_->motion = MotionScale<Real>(*forces.springs, particles.mass, h);
   }
   if (state_->soft) forces.springs = &*state_->soft;

@@ -78,10 +78,11 @@ class Implicit final : public Integrator<Real> {
     /// Share of their stiffness that softened springs keep. They are allowed that share of the error: they
     /// would stretch by as much more than the cloth's with the same energy.
     double kept_stiffness = 1;
-    MotionScale<Real> motion;  ///< as the substep begins
-    SolveTarget target;        ///< of the substep's solves
-    bool smooth = true;        ///< the substep was not taken back
-    bool sound = true;         ///< a move was found in every substep of the step
+    double stretched_to_twice = 0;  ///< J, that all springs hold at their double length
+    MotionScale<Real> motion;       ///< as the substep begins
+    SolveTarget target;             ///< of the substep's solves
+    bool smooth = true;             ///< the substep was not taken back
+    bool sound = true;              ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
@@ -102,6 +103,7 @@ class Implicit final : public Integrator<Real> {
     double largest = 0;  ///< of that, in one spring, J
     double struck = 0;   ///< SpringModelError's
     bool taken = true;   ///< not dropped
+    bool wild = false;   ///< brings in far more than was to be gained
   };
   /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
   using Change = ChangeReport (Implicit::*)(const Forces<Real>& forces, double decrease);
@@ -117,7 +119,7 @@ class Implicit final : public Integrator<Real> {
   bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   /// Holds what this iteration would have pass through each other; true if there is any.
   bool hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers);
-  /// Less than the whole where contacts come in its way.
+  /// Less than the whole where contacts come in its way, or where it is wild.
   ChangeReport whole_change(const Forces<Real>& forces, double decrease);
   ChangeReport searched_change(const Forces<Real>& forces, double decrease);
   /// Of the change as it is.
