@@ -44,6 +44,13 @@ class NightlyScenes : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(NightlyScenes, AreFiniteAndBounded) { check_seeds(GetParam(), 100, 5); }
 INSTANTIATE_TEST_SUITE_P(Nightly, NightlyScenes, ::testing::Range<std::uint64_t>(1000, 3000, 100));
 
+// Of these, two that shrinking makes fail otherwise (regressions/): 2064's layers were held as a split had
+// left them, not settled, 21 J in the springs; in 2298 a Newton iteration went astray, 85 J.
+class RepairedScenes : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RepairedScenes, AreFiniteAndBounded) { check_seeds(GetParam(), 1, 5); }
+INSTANTIATE_TEST_SUITE_P(Stability, RepairedScenes, ::testing::Values<std::uint64_t>(2064, 2298));
+
 TEST(RandomScene, IsTheSameForTheSameSeed) {
   EXPECT_EQ(scene_json(random_scene(7, 4)), scene_json(random_scene(7, 4)));
   EXPECT_NE(scene_json(random_scene(7, 4)), scene_json(random_scene(8, 4)));
