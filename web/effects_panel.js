@@ -1,5 +1,6 @@
 import {Tuner} from './tuning.js';
-import {make, Tunings, words} from './tunings.js';
+import {make} from './tuning_row.js';
+import {Tunings, words} from './tunings.js';
 
 const byId = (id) => document.getElementById(id);
 /** What the effects are called here; one that is not known goes by its own name. */

@@ -2,7 +2,7 @@ import {sliderSpan, unitText} from './tuning.js';
 
 const kHoldMs = 600;  // what the viewer has set is not overwritten by what the server still says
 
-const make = (tag, properties) => Object.assign(document.createElement(tag), properties);
+export const make = (tag, properties) => Object.assign(document.createElement(tag), properties);
 const numberText = (number) => String(Number(number.toPrecision(6)));
 
 /** One number that can be set: a slider, and a field for any value in the range. */

@@ -1,9 +1,8 @@
-import {TuningRow} from './tuning_row.js';
+import {make, TuningRow} from './tuning_row.js';
 
 /** Of parameters that are arrays, by their length. */
 const kComponents = {2: [' along u', ' along v'], 3: [' x', ' y', ' z']};
 
-export const make = (tag, properties) => Object.assign(document.createElement(tag), properties);
 /** A name of the protocol as a label. */
 export const words = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll('_', ' ');
 const listed = (value) => [value].flat();

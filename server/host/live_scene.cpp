@@ -148,8 +148,8 @@ bool LiveScene::is_off(std::string_view effect) const {
   return std::find(effects_off_.begin(), effects_off_.end(), effect) != effects_off_.end();
 }
 
-void LiveScene::composition_changed() {
-  recompose_ = true;
+void LiveScene::composition_changed(Recompose what) {
+  recompose_ = std::max(recompose_, what);
   study_outdated();
 }
 
@@ -174,7 +174,7 @@ bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || wait
 void LiveScene::step() {
   for (Seat& seat : seats_) look(seat, 1);
   request_levels();
-  if (std::exchange(recompose_, false)) recompose();
+  recompose(std::exchange(recompose_, Recompose::nothing));
   simulation_.step();
   tell_guard_events();
   const auto& cloths = simulation_.cloths();
@@ -189,8 +189,9 @@ void LiveScene::step() {
     frame_due_ = true;
 }
 
-void LiveScene::recompose() {
-  simulation_.set_effects(studied().effects);
+void LiveScene::recompose(Recompose what) {
+  if (what == Recompose::nothing) return;
+  if (what == Recompose::effects) simulation_.set_effects(studied().effects);
   for (std::size_t i = 0; i < materials_.size(); ++i) simulation_.set_material(i, materials_[i]);
 }
 
@@ -209,6 +210,13 @@ void LiveScene::tell_guard_events() {
   }
 }
 
+bool LiveScene::remove_ball(BallId id) {
+  const json before = composition();
+  const bool found = simulation_.remove_ball(id);
+  if (composition() != before) study_outdated();
+  return found;
+}
+
 void LiveScene::remove_lost_balls() {
   std::vector<BallId> lost;
   for (const Ball& ball : simulation_.colliders().balls()) {
@@ -216,7 +224,7 @@ void LiveScene::remove_lost_balls() {
     if (dynamic && ball.position.cwiseAbs().maxCoeff() > kBallRange) lost.push_back(ball.id);
   }
   for (const BallId id : lost) {
-    simulation_.remove_ball(id);
+    remove_ball(id);
     tell_event("ball.remove", simulation_.step_count(),
                {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
   }

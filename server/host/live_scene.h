@@ -128,10 +128,11 @@ class LiveScene {
   void use_chosen_integrator();
   std::optional<protocol::Error> missing_effect(const std::string& effect) const;
   bool is_off(std::string_view effect) const;
-  /// The effects that are on, their parameters or the materials are others now: the next step is composed of
-  /// them.
-  void composition_changed();
-  void recompose();
+  /// What the next step is composed of anew. Effects wake all there is, a material only its cloth.
+  enum class Recompose { nothing, materials, effects };
+  /// The effects that are on, their parameters or the materials are others now.
+  void composition_changed(Recompose what);
+  void recompose(Recompose what);
   /// What was studied is of another scene.
   void study_outdated();
   /// All that commands may change of what is studied, to be compared.
@@ -139,6 +140,8 @@ class LiveScene {
   void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();
+  /// False if there is none. One of the scene's own is studied with the scene's friction from then on.
+  bool remove_ball(BallId id);
   void remove_lost_balls();
   void state_changed();
   void balls_changed(std::string_view kind, BallId id);
@@ -156,12 +159,12 @@ class LiveScene {
   GuardLog guard_;
   std::vector<std::string> guard_texts_;
   std::vector<Seat> seats_;
-  std::vector<int> finest_sendable_;        ///< by cloth
-  std::vector<BoundingSphere> bounds_;      ///< of the cloths; without a radius where nobody asks for it
-  std::vector<EffectDescription> effects_;  ///< the scene's, with the parameters that they have now
-  std::vector<std::string> effects_off_;    ///< of them, by name, in the scene's order
-  std::vector<Material> materials_;         ///< the cloths', as they are now
-  bool recompose_ = false;  ///< the simulation does not have them yet: once a step, however many commands
+  std::vector<int> finest_sendable_;          ///< by cloth
+  std::vector<BoundingSphere> bounds_;        ///< of the cloths; without a radius where nobody asks for it
+  std::vector<EffectDescription> effects_;    ///< the scene's, with the parameters that they have now
+  std::vector<std::string> effects_off_;      ///< of them, by name, in the scene's order
+  std::vector<Material> materials_;           ///< the cloths', as they are now
+  Recompose recompose_ = Recompose::nothing;  ///< not done yet: once a step, however many commands
   std::uint64_t study_number_ = 0;
   int frame_stride_ = 1;  ///< steps from one frame to the next
   int unseen_steps_ = 1;  ///< kUnseenTime

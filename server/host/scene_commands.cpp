@@ -65,7 +65,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothTune& tuning, Seat&
   const Material before = material;
   if (const auto error = tune(tuning, effects_, material)) return *error;
   if (material == before) return json::object();
-  composition_changed();
+  composition_changed(Recompose::materials);
   tell_event("cloth.tune", takes_effect_,
              {{"cloth", tuning.cloth}, {"material", material_json(material, effects_)}});
   return json::object();
@@ -87,7 +87,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
     if (!listed && (name == set.effect ? !set.on : is_off(name))) off.push_back(name);
   }
   effects_off_ = std::move(off);
-  composition_changed();
+  composition_changed(Recompose::effects);
   tell_event("effect", takes_effect_,
              {{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}});
   return json::object();
@@ -99,7 +99,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat
   if (const auto error = tune(tuning, effects_)) return *error;
   const json after = parameters_json(effects_);
   if (after == before) return json::object();
-  if (!is_off(tuning.effect)) composition_changed();
+  if (!is_off(tuning.effect)) composition_changed(Recompose::effects);
   tell_event("tune", takes_effect_, {{"effect", tuning.effect}, {"parameters", after[tuning.effect]}});
   return json::object();
 }
@@ -175,7 +175,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   effects_off_.clear();
   for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i] = scene_.simulation.cloths[i].material;
   if (composition() != before) study_outdated();
-  recompose_ = false;  // it is as its description has it
+  recompose_ = Recompose::nothing;  // it is as its description has it
   for (Seat& seat : seats_) seat.grabs.clear();
   quality_.restarted();
   guard_ = {};

@@ -63,7 +63,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat&) {
-  if (!simulation_.remove_ball(remove.ball)) return no_such_ball(remove.ball);
+  if (!remove_ball(remove.ball)) return no_such_ball(remove.ball);
   balls_changed("ball.remove", remove.ball);
   return json::object();
 }
@@ -162,7 +162,10 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&) {
   const Colliders& colliders = simulation_.colliders();
-  const json before = composition();
+  const auto frictions = [&] {
+    return json{{"balls", balls_json(colliders)}, {"frictions", frictions_json(colliders)}};
+  };
+  const json before = frictions(), studied_before = composition();
   if (set.ball) {
     if (!simulation_.set_ball_friction(*set.ball, set.friction)) return no_such_ball(*set.ball);
   } else if (set.obstacle) {
@@ -173,9 +176,9 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
     for (std::size_t i = 0; i < colliders.obstacles().size(); ++i)
       simulation_.set_obstacle_friction(i, set.friction);
   }
-  if (composition() != before) study_outdated();
-  tell_event("friction", takes_effect_,
-             {{"balls", balls_json(colliders)}, {"frictions", frictions_json(colliders)}});
+  if (frictions() == before) return json::object();
+  if (composition() != studied_before) study_outdated();
+  tell_event("friction", takes_effect_, frictions());
   return json::object();
 }
 

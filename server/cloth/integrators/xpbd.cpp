@@ -96,15 +96,41 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& f
 }
 
 template <class Real>
+void Xpbd<Real>::keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes) {
+  const auto is = [](const SpringFamily& family, const kernels::XpbdSprings<Real>& springs) {
+    return springs.rows == family.rows && springs.cols == family.cols;
+  };
+  if (!multiplier_.empty() &&
+      std::equal(families.rbegin(), families.rend(), springs_.begin(), springs_.end(), is))
+    return;
+  const auto before = std::exchange(multiplier_, {});
+  multiplier_.resize(families.size() * sheet_lanes);
+  if (before.empty()) return;
+  auto block = multiplier_.begin();
+  for (auto family = families.rbegin(); family != families.rend(); ++family) {
+    const auto same = std::find_if(springs_.begin(), springs_.end(),
+                                   [&](const auto& springs) { return is(*family, springs); });
+    if (same != springs_.end())
+      std::copy_n(before.begin() + (same - springs_.begin()) * static_cast<std::ptrdiff_t>(sheet_lanes),
+                  sheet_lanes, block);
+    block += static_cast<std::ptrdiff_t>(sheet_lanes);
+  }
+}
+
+template <class Real>
 void Xpbd<Real>::prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time,
                                  double h) {
   const std::vector<SpringFamily>& families = springs.families();
   const std::size_t lanes = layout_.stride;
   const int rows = springs.torn() ? grid.rows : 1;
   stiffness_.assign(families.size() * static_cast<std::size_t>(rows) * lanes, Real(0));
-  springs_.clear();
   const std::size_t sheet_lanes = lanes * static_cast<std::size_t>(grid.rows);
-  multiplier_.resize(springs.damping_time() > 0 ? families.size() * sheet_lanes : 0);
+  if (springs.damping_time() > 0) {
+    keep_multipliers(families, sheet_lanes);
+  } else {
+    multiplier_.clear();
+  }
+  springs_.clear();
   // Bending, shear, structural: the stiffest have the last word.
   for (auto family = families.rbegin(); family != families.rend(); ++family) {
     Real* stiffness = stiffness_.data() + springs_.size() * static_cast<std::size_t>(rows) * lanes;

@@ -54,6 +54,8 @@ class Xpbd final : public Integrator<Real> {
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   void prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time, double h);
+  /// Those of families that were there before; families without stiffness are left out of the list.
+  void keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes);
   void prepare_plate(const Plate<Real>& plate, double h);
   /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
   void take_back_pins(const Forces<Real>& forces, double share, double h);

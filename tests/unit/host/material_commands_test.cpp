@@ -72,7 +72,7 @@ TEST_F(MaterialCommands, AreToldToAllAndTakeEffectInTheNextStep) {
   EXPECT_EQ(live.studied().cloths[0].material.limit.warp, 0.5);
 }
 
-TEST_F(MaterialCommands, ManyBeforeAStepComposeTheSceneOnce) {
+TEST_F(MaterialCommands, OfManyBeforeAStepTheLastCounts) {
   for (int i = 1; i <= 50; ++i) command(ClothTune{0, {{"damping", {0.1 * i}}}});
   scene::Scene slow = cloth_on_things();
   slow.simulation.cloths[0].material.damping = 0.1 * 50;
@@ -86,6 +86,7 @@ TEST_F(MaterialCommands, ToTheSameChangeNothing) {
     EXPECT_EQ(command(FrictionSet{0.3, 1, {}}).at("op"), "ok");
   });
   EXPECT_TRUE(other.last("event", "cloth.tune").is_null());
+  EXPECT_TRUE(other.last("event", "friction").is_null());
   EXPECT_EQ(live.study_number(), number);
 }
 
@@ -145,6 +146,16 @@ TEST_F(MaterialCommands, OfAnAddedBallAreKept) {
   EXPECT_EQ(live.studied().balls[0].friction, 0.3);  // what is studied is the scene from its start
   EXPECT_EQ(command(FrictionSet{0.7, ok.at("ball").get<std::uint32_t>(), {}}).at("op"), "ok");
   EXPECT_EQ(frictions_of(other.last("event", "friction").at("balls")), (std::vector<double>{0.7}));
+}
+
+// With the ball goes the friction it was given: what is studied is the scene's own again.
+TEST_F(MaterialCommands, StudyIsOutdatedByTheRemovalOfABallOfOtherFriction) {
+  command(FrictionSet{0.9, 1, {}});
+  EXPECT_EQ(live.studied().balls[0].friction, 0.9);
+  const std::uint64_t number = live.study_number();
+  command(protocol::BallRemove{1});
+  EXPECT_EQ(live.studied().balls[0].friction, 0.3);
+  EXPECT_NE(live.study_number(), number);
 }
 
 TEST_F(MaterialCommands, AResetBringsTheScenesOwnBack) {
