@@ -113,13 +113,12 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
-  raised_ = elastic_energy() - held_;
   // The paper's own rules change levels as the paper does. An implicit step finds its balance by itself, but
   // what springs hold more than before it would make motion.
   if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
     if (!is_implicit(guard_.method())) {
       unsettled_ = Unsettled::by_level;
-    } else if (raised_ > 0) {
+    } else if (elastic_energy() > held_) {
       unsettled_ = Unsettled::by_gain;
     }
   }

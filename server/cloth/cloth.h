@@ -44,9 +44,6 @@ class Cloth {
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
   /// The next step then settles the cloth first; an implicit one where springs gained (settle.h).
   bool apply_pending_level();
-  /// J, that springs and plate held more after the last change of level, and after settling, than before it.
-  /// A coarser grid holds more of the same folds, whose springs they compress; finer ones give it back.
-  double raised_by_level() const { return raised_; }
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
   void set_integrator(const IntegratorDescription& integrator);
@@ -156,7 +153,6 @@ class Cloth {
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
   Unsettled settled_ = Unsettled::no;    ///< in this step already; again, if it is taken back
   double held_ = 0;                      ///< J, by springs and plate before the last change of level
-  double raised_ = 0;                    ///< J, raised_by_level()
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;

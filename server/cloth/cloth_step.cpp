@@ -22,7 +22,6 @@ void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time, dou
   settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
          solids.empty() ? nullptr : &contact(), solids, dt, held_);
   settled_ = std::exchange(unsettled_, Unsettled::no);
-  if (settled_ == Unsettled::by_level || settled_ == Unsettled::by_gain) raised_ = elastic_energy() - held_;
 }
 
 template <class Real>

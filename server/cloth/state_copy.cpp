@@ -68,7 +68,6 @@ void Cloth<Real>::take_state(const Cloth& other) {
   unsettled_ = other.unsettled_;
   settled_ = other.settled_;
   held_ = other.held_;
-  raised_ = other.raised_;
   begins_ = other.begins_;
   particles_ = other.particles_;
   time_ = other.time_;

@@ -7,7 +7,6 @@
 ///    Symplectic Euler conserves a modified energy instead, whose ratio to the true one lies, for a mode of
 ///    angular frequency w, within 1 +- w h / 2 (Hairer, Lubich and Wanner, Geometric Numerical Integration,
 ///    2006, I.1): at the 0.9 its steps are chosen for, that is up to 19 times what was put in.
-///    What coarser levels hold of one shape beyond what the finest does is lent (random_check.cpp).
 ///    XPBD leaves constraints unsolved, which is no energy that ever comes back: its springs are not counted;
 ///  - from a stated time on no structural spring is stretched beyond a stated limit. Compression is no harm:
 ///    a spring mesh shortens where cloth has folds finer than the mesh;
