@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace weft {
 namespace {
 
-/// Steps of conservative advancement after which features that creep up on each other count as touching.
-constexpr int kMostSteps = 64;
+/// Steps of conservative advancement after which features that creep up on each other count as touching. Of
+/// five million random pairs (moved by 0.01 to 100 times their size) 10 take all of them; 64 would be too few
+/// for 350.
+constexpr int kMostSteps = 256;
 /// What features that are very near keep of their distance.
 constexpr double kLeastPart = 0.9;
 
@@ -66,6 +69,21 @@ Nearness edge_edge(const FourPoints& p) {
   return weighted({1 - s, s, t - 1, -t}, p);
 }
 
+/// For how long features that move so lie at least `distance` apart along `way`, which leads from the second
+/// one to the first. Infinity if they do for ever.
+double time_apart(FeaturePair::Kind kind, const FourPoints& points, const FourPoints& move, const Vec3& way,
+                  double distance) {
+  double time = std::numeric_limits<double>::infinity();
+  const std::size_t first_nodes = kind == FeaturePair::Kind::node_triangle ? 1 : 2;
+  for (std::size_t i = 0; i < first_nodes; ++i) {
+    for (std::size_t j = first_nodes; j < 4; ++j) {
+      const double approach = way.dot(move[j] - move[i]);
+      if (approach > 0) time = std::min(time, (way.dot(points[i] - points[j]) - distance) / approach);
+    }
+  }
+  return time;
+}
+
 double longest(const Vec3& a, const Vec3& b) { return std::sqrt(std::max(a.squaredNorm(), b.squaredNorm())); }
 
 }  // namespace
@@ -95,18 +113,17 @@ double reach(FeaturePair::Kind kind, const FourPoints& move) {
 
 std::optional<double> first_contact(FeaturePair::Kind kind, double distance, const FourPoints& start,
                                     const FourPoints& move, double gap) {
-  const double nearer = reach(kind, move);
   const double least = std::min(gap, kLeastPart * distance);
   const double near = std::min(1.5 * gap, (1 + kLeastPart) / 2 * distance);
-  if (distance - nearer > near) return std::nullopt;
+  if (distance - reach(kind, move) > near) return std::nullopt;
   double time = 0;
-  for (int step = 0; step < kMostSteps; ++step) {
-    time += (distance - least) / nearer * 0.9;
+  FourPoints points = start;
+  Vec3 apart = nearness(kind, start).apart;
+  for (int step = 0; step < kMostSteps && apart.norm() > near; ++step) {
+    time += time_apart(kind, points, move, apart.normalized(), (least + near) / 2);
     if (time > 1) return std::nullopt;
-    FourPoints points;
     for (std::size_t i = 0; i < 4; ++i) points[i] = start[i] + time * move[i];
-    distance = nearness(kind, points).apart.norm();
-    if (distance <= near) return time;
+    apart = nearness(kind, points).apart;
   }
   return time;
 }

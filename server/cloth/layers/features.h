@@ -43,8 +43,9 @@ double reach(FeaturePair::Kind kind, const FourPoints& move);
 /// are hardly farther apart than `gap`: farther than `gap`, nearer than 1.5 gaps. None if they never are.
 /// Features that begin nearer than that, `distance` apart, may come a tenth nearer.
 ///
-/// Conservative advancement with the nodes' common motion left out (Li, Kaufman, Jiang, Codimensional
-/// Incremental Potential Contact, 2021, section 5): no root of a cubic is looked for, so that none is missed.
+/// Conservative advancement by the nodes' motions along the shortest way (Mirtich, Impulse-based Dynamic
+/// Simulation of Rigid Body Systems, 1996, 2.3.2): no root of a cubic is looked for, so that none is missed,
+/// and what slides past at a distance is not taken for what comes nearer.
 std::optional<double> first_contact(FeaturePair::Kind kind, double distance, const FourPoints& start,
                                     const FourPoints& move, double gap);
 

@@ -87,6 +87,27 @@ TEST(FirstContact, MissesNoneAndComesNoNearerThanTheGap) {
   EXPECT_GT(met, 50);
 }
 
+// A node over a large triangle and an edge over another, 0.05 m apart all the way, and then coming down from
+// there to 0.01 m, so that they are 1.5 to 1 gaps apart from 50 to 75 % of the way on.
+TEST(FirstContact, TellsWhatSlidesPastFromWhatComesNearer) {
+  const FourPoints over_triangle{Vec3(1, 0.05, 1), Vec3(0, 0, 0), Vec3(40, 0, 0), Vec3(0, 0, 40)};
+  const FourPoints crossing{Vec3(1, 0.05, -1), Vec3(1, 0.05, 1), Vec3(0, 0, 0), Vec3(40, 0, 0)};
+  for (const auto& [kind, start] :
+       {std::pair{Kind::node_triangle, over_triangle}, {Kind::edge_edge, crossing}}) {
+    const std::size_t movers = kind == Kind::node_triangle ? 1 : 2;
+    FourPoints along{Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)}, down = along;
+    for (std::size_t i = 0; i < movers; ++i) {
+      along[i] = {20, 0, 0};
+      down[i] = {20, -0.04, 0};
+    }
+    EXPECT_EQ(first_contact(kind, 0.05, start, along, 0.02), std::nullopt);
+    const auto time = first_contact(kind, 0.05, start, down, 0.02);
+    ASSERT_TRUE(time);
+    EXPECT_GE(*time, 0.5);
+    EXPECT_LE(*time, 0.75);
+  }
+}
+
 TEST(FeatureSearch, FindsAllThatIsNearInAFoldAndNothingInAFlatSheet) {
   const Grid grid = Grid::with_nodes(17, 33);
   LayerNodes nodes = folded(grid);
