@@ -30,6 +30,21 @@ double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
   return longest;
 }
 
+/// Twice the energy of the mean velocity, J. 0 where a node is pinned.
+template <class Real>
+double common_energy(const Particles<Real>& particles) {
+  double mass = 0;
+  Vec3 momentum(0, 0, 0);
+  for (int r = 0; r < particles.grid().rows; ++r) {
+    for (int c = 0; c < particles.grid().cols; ++c) {
+      if (particles.inverse_mass.at(r, c) == 0) return 0;
+      mass += double(particles.mass.at(r, c));
+      momentum += double(particles.mass.at(r, c)) * particles.velocity_at(r, c);
+    }
+  }
+  return momentum.squaredNorm() / mass;
+}
+
 }  // namespace
 
 template <class Real>
@@ -48,6 +63,7 @@ void MotionScale<Real>::measure(const Particles<Real>& particles) {
   for (const Real node : particles.mass.values()) mass_ += static_cast<double>(node);
   kinetic_ = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
                                             particles.grid());
+  inner_ = std::max(0.0, kinetic_ - common_energy(particles));
 }
 
 template <class Real>
@@ -62,8 +78,13 @@ void MotionScale<Real>::found(double decrease) {
 }
 
 template <class Real>
+double MotionScale<Real>::still() const {
+  return fine() ? mass_ * slow_ * slow_ : given();
+}
+
+template <class Real>
 double MotionScale<Real>::energy() const {
-  return kinetic_ + (fine() ? mass_ * slow_ * slow_ : given());
+  return inner_ + still();
 }
 
 template <class Real>
@@ -72,7 +93,7 @@ SolveTarget MotionScale<Real>::target(double tolerance, bool contact) const {
   const double least = share * (kinetic_ + mass_ * slow_ * slow_);
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
-  return {least, near_rest() && contact ? 0 : share, std::max(least, share * energy())};
+  return {least, near_rest() && contact ? 0 : share, std::max(least, share * (kinetic_ + still()))};
 }
 
 template class MotionScale<float>;

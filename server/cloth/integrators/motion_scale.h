@@ -27,7 +27,7 @@ class MotionScale {
   /// brake it: at 15 Hz a crumpled sheet took 62 s to come to rest that takes 11.
   bool fine() const { return digits_ && near_rest() && !falls_; }
   /// Twice the energy of the motion that nodes have or, unless it is fine, gravity gives them in the substep,
-  /// J.
+  /// J. Of what nothing pins as seen from its mean velocity: in flight a sheet bends no more than at rest.
   double energy() const;
   /// Of solves that may be off by `tolerance` of the speed; `contact`: something touches the cloth.
   SolveTarget target(double tolerance, bool contact) const;
@@ -35,11 +35,14 @@ class MotionScale {
  private:
   /// Twice the energy of the speed that gravity gives in the substep, J.
   double given() const;
+  /// What energy() is where nothing moves.
+  double still() const;
 
   double h_ = 0;
   double slow_ = 0;                ///< m/s, as slow as motion need be told from rest
   double near_rest_ = 0;           ///< m/s
   double mass_ = 0, kinetic_ = 0;  ///< kg, and twice the energy, J
+  double inner_ = 0;               ///< kinetic_, where nothing is pinned without that of the mean velocity
   bool digits_ = true;             ///< of the scalar, enough for errors of slow_
   bool falls_ = false;             ///< in this substep
 };
