@@ -58,7 +58,7 @@ constexpr double kRounding = 4;
 /// The same of what a solve gains: its directions gain and lose far more than their sum, each to the last
 /// digit. Two crumpled sheets at rest (1e5 times what is left, each iteration) got 3.5 mJ where 0.9 are
 /// allowed.
-constexpr double kSolveRounding = 1000;
+constexpr double kSolveRounding = 300;
 
 }  // namespace
 
