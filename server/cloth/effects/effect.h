@@ -68,6 +68,9 @@ class Effect {
                            const DampingMatrix<Real>& damping) const;
   /// Whether it asks for the air's velocity at the nodes, if that differs from node to node.
   virtual bool feels_wind() const { return false; }
+  /// Whether its force hardly changes from one of many substeps to the next and takes a while to find:
+  /// explicit methods may give what it does in several at one blow. It damps, if anything.
+  virtual bool slow() const { return false; }
   /// Whether add_damping writes blocks.
   virtual bool needs_blocks() const { return false; }
 };

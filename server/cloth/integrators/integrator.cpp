@@ -1,5 +1,7 @@
 #include "cloth/integrators/integrator.h"
 
+#include <algorithm>
+
 #include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/integrators/xpbd.h"
@@ -28,9 +30,37 @@ struct IntegratorMaker {
 template <class Real>
 void Forces<Real>::sum(const Particles<Real>& particles, VectorField<Real>& force) const {
   force.fill(Real(0));
+  add_sheet(particles, force);
+  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+void Forces<Real>::sum_with(const VectorField<Real>& slow, const Particles<Real>& particles,
+                            VectorField<Real>& force) const {
+  force = slow;
+  add_sheet(particles, force);
+  for (const auto& effect : *effects) {
+    if (!effect->slow()) effect->add_forces(particles, context, force);
+  }
+}
+
+template <class Real>
+void Forces<Real>::sum_slow(const Particles<Real>& particles, VectorField<Real>& force) const {
+  force.fill(Real(0));
+  for (const auto& effect : *effects) {
+    if (effect->slow()) effect->add_forces(particles, context, force);
+  }
+}
+
+template <class Real>
+bool Forces<Real>::any_slow() const {
+  return std::any_of(effects->begin(), effects->end(), [](const auto& effect) { return effect->slow(); });
+}
+
+template <class Real>
+void Forces<Real>::add_sheet(const Particles<Real>& particles, VectorField<Real>& force) const {
   springs->add_forces(particles.position, force);
   if (plate != nullptr) plate->add_forces(particles.position, force);
-  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
 }
 
 template <class Real>

@@ -46,10 +46,20 @@ struct Forces {
   /// Eq. 5: F_sum = F_elastic + the scene's effects; `force` is overwritten, N. The springs' damping, which
   /// each method takes in its own way, is not in it.
   void sum(const Particles<Real>& particles, VectorField<Real>& force) const;
+  /// The same with `slow`, N, in place of the slow effects (Effect::slow), and these alone; `force` is
+  /// overwritten, N.
+  void sum_with(const VectorField<Real>& slow, const Particles<Real>& particles,
+                VectorField<Real>& force) const;
+  void sum_slow(const Particles<Real>& particles, VectorField<Real>& force) const;
   /// The scene's effects alone; `force` is overwritten, N.
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
+  bool any_slow() const;
   /// Bound on the damping rate of all effects together, 1/s (Effect::max_damping_rate).
   double max_damping_rate(const Particles<Real>& particles) const;
+
+ private:
+  /// Springs and plate.
+  void add_sheet(const Particles<Real>& particles, VectorField<Real>& force) const;
 };
 
 /// What one advance did.

@@ -15,6 +15,22 @@ namespace {
 /// much a sheet let go at 1.055 or 1.1 times its size, limit 1.05, never has more than it began with (20 s).
 constexpr double kLimitDamping = 0.25;
 
+/// Substeps for which slow effects are found once: an odd number, so that a blow can be in their midst, of at
+/// most so many, and no more than damp a node's speed by this share.
+constexpr int kMostTogether = 15;
+constexpr double kMostDamped = 0.25;
+/// Of what slow effects do beyond what has lasted, the share that lasts from then on. Of what is held drag is
+/// late, and fast modes gain by that; a blow takes more from them as long as it has half of it.
+constexpr double kLasts = 0.5;
+
+int odd_at_most(int most) { return (most - 1) / 2 * 2 + 1; }
+
+/// Substeps that may be taken together at that damping rate, 1/s.
+int together_at(double rate, double h) {
+  const double most = std::min<double>(kMostTogether, kMostDamped / (rate * h));
+  return most >= 3 ? odd_at_most(static_cast<int>(most)) : 1;
+}
+
 /// Eq. 6.
 template <class Real>
 void update(Particles<Real>& particles, const VectorField<Real>& force, double h) {
@@ -52,7 +68,8 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   AdvanceReport report;
   double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
   if (forces.springs->limited()) squared_frequency *= 1 + 2 * kLimitDamping;
-  const double rate = forces.max_damping_rate(particles) + forces.springs->max_damping_rate(particles.mass);
+  const double effects_rate = forces.max_damping_rate(particles);
+  const double rate = effects_rate + forces.springs->max_damping_rate(particles.mass);
   if (forces.plate != nullptr) squared_frequency += forces.plate->max_squared_frequency(particles.mass);
   report.substeps = description_.substeps > 0
                         ? description_.substeps
@@ -64,15 +81,32 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   }
   // What the rate may grow to within this step: half of the room that the springs leave.
   forces.context.damping_limit = std::max(rate, (4 - squared_frequency * h * h) / (4 * h));
+  const bool slow = description_.substeps == 0 && forces.any_slow();
+  const int together = slow ? together_at(effects_rate, h) : 1;
+  forces.context.time = time;
+  int blow_begin = 0, blow_end = 0;
+  if (together > 1) {
+    find_slow(particles, forces, together * h);
+    lasting_ = slow_;
+  }
   for (int s = 0; s < report.substeps; ++s) {
     const auto begin = Clock::now();
     forces.context.time = time + s * h;
     forces.carry_pins(particles, time + (s + 1) * h);
-    forces.sum(particles, force_);
+    if (together > 1) {
+      forces.sum_with(lasting_, particles, force_);
+    } else {
+      forces.sum(particles, force_);
+    }
     if (forces.springs->damping_time() > 0) add_damping(particles, forces, h);
     if (forces.springs->limited()) {
       forces.springs->add_limit_damping(particles.position, particles.velocity, kLimitDamping * h, force_);
     }
+    if (together > 1 && s == blow_end) {
+      blow_begin = s;
+      blow_end += odd_at_most(std::min(together, report.substeps - s));
+    }
+    if (s == (blow_begin + blow_end) / 2 && together > 1) blow(particles, forces, h, blow_end - blow_begin);
     update(particles, force_, h);
     forces.close(particles, time + (s + 1) * h, h);
     const auto moved = Clock::now();
@@ -93,6 +127,34 @@ void SymplecticEuler<Real>::add_damping(Particles<Real>& particles, const Forces
   forces.for_each_pin_way(forces.context.time, forces.context.time + h,
                           [&](std::size_t node, const Vec3& way) { add<Real>(velocity, node, way / h); });
   forces.springs->add_damping(particles.position, velocity, force_);
+}
+
+template <class Real>
+void SymplecticEuler<Real>::find_slow(const Particles<Real>& particles, Forces<Real> forces, double seconds) {
+  if (slow_.grid() != particles.grid()) slow_ = VectorField<Real>(particles.grid());
+  forces.context.damping_limit = 1 / seconds;
+  forces.sum_slow(particles, slow_);
+}
+
+template <class Real>
+void SymplecticEuler<Real>::blow(Particles<Real>& particles, const Forces<Real>& forces, double h,
+                                 int together) {
+  const std::size_t count = particles.grid().size();
+  const auto push = [&](const VectorField<Real>& force, double seconds) {
+    kernels::add_weighted(kernels::components(particles.velocity), kernels::components(force),
+                          particles.inverse_mass.row(0), static_cast<Real>(seconds), count);
+  };
+  // At the velocity when the nodes are where they are, half a substep after the one they came with: so a blow
+  // of drag takes energy from every mode.
+  velocity_ = particles.velocity;
+  push(force_, h / 2);
+  find_slow(particles, forces, together * h);
+  std::swap(particles.velocity, velocity_);
+  kernels::add_scaled(kernels::components(slow_), kernels::components(std::as_const(lasting_)), Real(-1),
+                      count);
+  push(slow_, together * h);
+  kernels::add_scaled(kernels::components(lasting_), kernels::components(std::as_const(slow_)), Real(kLasts),
+                      count);
 }
 
 template class SymplecticEuler<float>;

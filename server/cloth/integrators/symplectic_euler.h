@@ -11,6 +11,11 @@ inline constexpr int kMaxSubsteps = 10000;
 
 /// Eq. 6 in the paper's order: a = F/m, then v += a h, then r += v h with the new v; then section 2.4's
 /// collisions.
+///
+/// Where it chooses the substeps itself, slow effects (Effect::slow) are found once for several of them. What
+/// has lasted of them is spread over these substeps, and the rest, drag above all, is given at one blow in
+/// their midst: the impulse method of Tuckerman, Berne and Martyna (Reversible multiple time scale molecular
+/// dynamics, 1992), which would have a taut sheet in a steady wind ring if all of it came in blows.
 template <class Real>
 class SymplecticEuler final : public Integrator<Real> {
  public:
@@ -23,8 +28,15 @@ class SymplecticEuler final : public Integrator<Real> {
   /// What the springs' damping does in a substep of h seconds that begins at forces.context.time.
   void add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h);
 
+  /// Slow effects' force, which acts for so many seconds.
+  void find_slow(const Particles<Real>& particles, Forces<Real> forces, double seconds);
+  /// In the midst of so many substeps of h seconds; force_ is the sum.
+  void blow(Particles<Real>& particles, const Forces<Real>& forces, double h, int together);
+
   SymplecticEulerDescription description_;
   VectorField<Real> force_;
+  /// Slow effects: what they do now, what of it has lasted; and velocities. Empty unless blows are given.
+  VectorField<Real> slow_, lasting_, velocity_;
 };
 
 extern template class SymplecticEuler<float>;
