@@ -16,7 +16,9 @@ namespace {
 constexpr double kLimitDamping = 0.25;
 
 /// Substeps for which slow effects are found once: an odd number, so that a blow can be in their midst, of at
-/// most so many, and no more than damp a node's speed by this share.
+/// most so many, and no more than damp a node's speed by this share. A flag at level 5 then has 0.336 J of
+/// kinetic energy in the mean of 45 s, and 0.344 J by 300 substeps with the air's force in each (both +-
+/// 0.004, from four seeds).
 constexpr int kMostTogether = 15;
 constexpr double kMostDamped = 0.25;
 /// Of what slow effects do beyond what has lasted, the share that lasts from then on. Of what is held drag is
