@@ -37,7 +37,6 @@ struct Interval {
 /// Eight running minima and maxima instead of one: one alone is a chain the compiler may not vectorise.
 Interval interval_of(const GridView& grid, std::size_t axis) {
   constexpr int kLanes = 8;
-  std::array<Interval, kLanes> lanes;
   std::array<float, kLanes> low, high;
   low.fill(Interval{}.low);
   high.fill(Interval{}.high);

@@ -66,12 +66,13 @@ TEST(Plate, ForceIsMinusTheStencilsMatrixTimesThePositions) {
       test::randomise(position, -1, 1, 1);
       const VectorField<double> force = force_of(plate, position);
       Eigen::MatrixXd r(grid.nodes(), 3);
-      each_node(grid, [&](int row, int col) { r.row(row * cols + col) = get(position, row, col); });
+      each_node(grid, [&](int row, int col) { r.row(row * grid.cols + col) = get(position, row, col); });
       const Eigen::MatrixXd expected = -k * r;
       const Field<double> free = inverse_masses(grid, held);
       each_node(grid, [&](int row, int col) {
-        const Vec3 sum = free.at(row, col) * expected.row(row * cols + col).transpose();
-        EXPECT_LT((get(force, row, col) - sum).norm(), 1e-13 * (1 + k.maxCoeff())) << rows << " x " << cols;
+        const Vec3 sum = free.at(row, col) * expected.row(row * grid.cols + col).transpose();
+        EXPECT_LT((get(force, row, col) - sum).norm(), 1e-13 * (1 + k.maxCoeff()))
+            << grid.rows << " x " << grid.cols;
       });
     }
   }

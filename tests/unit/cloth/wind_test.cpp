@@ -60,7 +60,7 @@ TEST(GustSeries, HasKaimalsSpectrum) {
   constexpr double kScale = 1.5, kStep = kScale / 125;
   std::vector<double> power(kSamples / 2, 0.0);
   for (int series = 0; series < kSeries; ++series) {
-    const GustSeries gusts({1.0, kScale}, 100 + series);
+    const GustSeries gusts({1.0, kScale}, 100 + std::uint64_t(series));
     std::vector<std::complex<double>> values(kSamples);
     for (int i = 0; i < kSamples; ++i) values[std::size_t(i)] = gusts.factor(i * kStep) - 1;
     fourier(values);
