@@ -24,7 +24,9 @@ ClothDescription draw_cloth(Draw& draw, int max_level) {
   cloth.size = {size, std::max(1e-3, size * draw.decades(0.05, 1))};
   cloth.base_cells = {draw.integer(1, 3), draw.integer(1, 2)};
   cloth.position = draw.in_box(1);
-  cloth.orientation = Quaternion(Eigen::AngleAxisd(draw.between(0, 3.1), draw.direction()));
+  // One after the other: compilers differ in which argument of a call they find first.
+  const Vec3 axis = draw.direction();
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(draw.between(0, 3.1), axis));
   if (draw.chance(0.3)) cloth.velocity = draw.in_box(20);
   if (draw.chance(0.5)) cloth.perturbation = 0.02 * size * draw.between(0, 1);
   if (draw.chance(0.2)) cloth.discretization = Discretization::paper;

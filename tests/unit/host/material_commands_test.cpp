@@ -168,7 +168,7 @@ TEST_F(MaterialCommands, AResetBringsTheScenesOwnBack) {
   command(protocol::Reset{});
   EXPECT_NE(live.study_number(), number);
   const json reset = other.last("event", "reset");
-  EXPECT_EQ(reset.at("materials"), json({own}));
+  EXPECT_EQ(reset.at("materials"), json::array({own}));
   EXPECT_EQ(reset.at("frictions"), json({0.5, 0.0}));
   EXPECT_EQ(frictions_of(reset.at("balls")), (std::vector<double>{0.3}));
   expect_steps_as(cloth_on_things());
