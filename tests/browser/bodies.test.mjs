@@ -63,6 +63,12 @@ test('the pointer shows what it would take', async () => {
   assert.equal(await cursor(), '');
 });
 
+test('the badge covers nothing that could be dragged', async () => {
+  const {x, y, width, height} = await page.locator('#badge').boundingBox();
+  const under = await page.evaluate(([atX, atY]) => document.elementFromPoint(atX, atY).id, [x + width / 2, y + height / 2]);
+  assert.equal(under, 'stage');
+});
+
 test('a box dragged by the mouse follows it, falls when it is let go, and comes to rest; the camera stays', async () => {
   const {eye} = await stats(page);
   const from = await placeOf(kBox);
@@ -176,7 +182,8 @@ test('a finger drags a body on a narrow page, whose controls fit', async () => {
 for (const preset of kPresets) {
   test(`${preset}: a ball that flew falls when it is let go`, async () => {
     const {page: other, witness} = await openScene(server, preset);
-    // Where it lies, or still flies: paused until it is held.
+    // Where it lies, or still flies, once it is on the page: paused until it is held.
+    await until(other, () => weft.toPage(weft.stats.balls[0].position)[1] > 60);
     await other.keyboard.press('Space');
     await until(other, () => weft.stats.lastFrame.paused && weft.stats.settled);
     const [{ball, position}] = (await stats(other)).balls;
