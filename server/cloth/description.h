@@ -225,7 +225,8 @@ struct ObstacleDescription {
 
 /// The paper's explicit method, Eq. 6.
 struct SymplecticEulerDescription {
-  int substeps = 0;     ///< per step; 0 chooses the fewest that keep the stiffest mode stable
+  int substeps = 0;     ///< per step; 0 chooses the fewest that keep the stiffest mode stable, and more
+                        ///< while springs turn over
   double safety = 0.9;  ///< with substeps = 0: share of the stability limit used, (0, 1]
   bool operator==(const SymplecticEulerDescription&) const = default;
   static constexpr const char* kName = "symplectic_euler";

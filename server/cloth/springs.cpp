@@ -314,6 +314,14 @@ StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& posit
 }
 
 template <class Real>
+kernels::SpringMotion Springs<Real>::motion(const Particles<Real>& particles) const {
+  if (families_.empty()) return {};
+  const Grid& grid = particles.grid();
+  return kernels::spring_motion(lattice(grid), grid, kernels::components(particles.position),
+                                kernels::components(particles.velocity));
+}
+
+template <class Real>
 double Springs<Real>::max_squared_frequency(const Field<Real>& mass) const {
   return squared_frequency(mass, true);
 }

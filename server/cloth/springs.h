@@ -5,6 +5,7 @@
 
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/kernels/spring_energy_kernels.h"
+#include "cloth/kernels/state_kernels.h"
 #include "cloth/material.h"
 #include "cloth/particles.h"
 #include "cloth/spring_family.h"
@@ -80,6 +81,8 @@ class Springs {
   /// J.
   double energy(const VectorField<Real>& position) const;
   StructuralStrain structural_strain(const VectorField<Real>& position) const;
+  /// The largest strain of a structural or shear spring, and speed of one's ends past each other.
+  kernels::SpringMotion motion(const Particles<Real>& particles) const;
   /// A bound on the largest eigenvalue of M^-1 K, 1/s2, whatever the cloth's shape: the squared angular
   /// frequency of the stiffest mode. From the lattice's dispersion relation, springs all aligned (worst
   /// case) and beyond their limits, any wave vector; a border node counts by the share of the lattice it

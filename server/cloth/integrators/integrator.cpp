@@ -70,10 +70,12 @@ void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Rea
 }
 
 template <class Real>
-double Forces<Real>::max_damping_rate(const Particles<Real>& particles) const {
-  double sum = 0;
-  for (const auto& effect : *effects) sum += effect->max_damping_rate(particles, context);
-  return sum;
+DampingRates Forces<Real>::max_damping_rates(const Particles<Real>& particles) const {
+  DampingRates rates;
+  for (const auto& effect : *effects) {
+    (effect->slow() ? rates.slow : rates.other) += effect->max_damping_rate(particles, context);
+  }
+  return rates;
 }
 
 template <class Real>

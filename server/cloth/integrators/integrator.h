@@ -12,6 +12,12 @@
 
 namespace weft {
 
+/// Bounds on the damping rate of a cloth's effects together, 1/s (Effect::max_damping_rate).
+struct DampingRates {
+  double slow = 0;  ///< of those that are slow (Effect::slow)
+  double other = 0;
+};
+
 /// Everything that pushes one cloth, at one level.
 template <class Real>
 struct Forces {
@@ -54,8 +60,7 @@ struct Forces {
   /// The scene's effects alone; `force` is overwritten, N.
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
   bool any_slow() const;
-  /// Bound on the damping rate of all effects together, 1/s (Effect::max_damping_rate).
-  double max_damping_rate(const Particles<Real>& particles) const;
+  DampingRates max_damping_rates(const Particles<Real>& particles) const;
 
  private:
   /// Springs and plate.

@@ -1,6 +1,7 @@
 #include "cloth/integrators/symplectic_euler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "cloth/clock.h"
@@ -24,6 +25,14 @@ constexpr double kMostDamped = 0.25;
 /// Of what slow effects do beyond what has lasted, the share that lasts from then on. Of what is held drag is
 /// late, and fast modes gain by that; a blow takes more from them as long as it has half of it.
 constexpr double kLasts = 0.5;
+
+/// A spring whose ends pass each other turns round, within a substep if they are fast, and what it gains or
+/// loses by that no bound on frequencies knows: the more strain, as a share of its length squared, and
+/// radians of its stiffest mode a substep has together, the more. A sheet crumpled to 2.15 times the length
+/// of its springs, 6.8 kJ, without damping has 4 s later 27,000 kJ at 1.25 radians, 0.2 % more at an eighth
+/// of that, and at 1.1 times the length no more than at first at half of it.
+constexpr double kTurning = 1.25;
+constexpr int kMostRefined = 16;  ///< a power of two
 
 int odd_at_most(int most) { return (most - 1) / 2 * 2 + 1; }
 
@@ -63,28 +72,67 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 }
 
 template <class Real>
+auto SymplecticEuler<Real>::plan(const Particles<Real>& particles, const Forces<Real>& forces, double dt)
+    -> Plan {
+  const Springs<Real>& springs = *forces.springs;
+  const double of_springs = springs.max_squared_frequency(particles.mass);
+  double squared_frequency = springs.limited() ? (1 + 2 * kLimitDamping) * of_springs : of_springs;
+  if (forces.plate != nullptr) squared_frequency += forces.plate->max_squared_frequency(particles.mass);
+  const DampingRates effects = forces.max_damping_rates(particles);
+  const double sheet_rate = springs.max_damping_rate(particles.mass);
+  const auto plan_for = [&](int substeps, double rate) -> Plan {
+    const double h = dt / substeps, room = 4 - squared_frequency * h * h;
+    // What the rate may grow to within this step: half of the room that the springs leave.
+    return {substeps, std::max(rate, room / (4 * h)), 2 * rate * h <= room};
+  };
+  const double rate = effects.slow + effects.other + sheet_rate;
+  if (description_.substeps > 0) {
+    Plan plan = plan_for(description_.substeps, rate);
+    plan.stable = true;  // as far as the scene wants to know
+    return plan;
+  }
+  const auto fewest = [&](double at_rate) {
+    return stable_substeps(squared_frequency, at_rate, dt, description_.safety);
+  };
+  const int substeps = fewest(rate);
+  const int turning = refinement(springs.motion(particles), std::sqrt(of_springs), dt / substeps);
+  const auto refined = [&](int count) { return std::min(count * turning, kMaxSubsteps); };
+  if (forces.any_slow()) {
+    // What comes in blows sets no limit to the substeps between them.
+    Plan plan = plan_for(refined(fewest(effects.other + sheet_rate)), effects.other + sheet_rate);
+    plan.together = together_at(effects.slow, dt / plan.substeps);
+    if (plan.together > 1) return plan;
+  }
+  return plan_for(refined(substeps), rate);
+}
+
+template <class Real>
+int SymplecticEuler<Real>::refinement(const kernels::SpringMotion& most, double frequency, double h) {
+  if (frequency == 0) return 1;
+  // As if all of the speed became strain.
+  const double squared_strain = most.strain * most.strain + std::pow(most.speed / frequency, 2);
+  const double needed = std::min<double>(squared_strain * frequency * h / kTurning, kMostRefined);
+  if (needed > refinement_) {
+    refinement_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(needed))));
+  } else if (4 * needed < refinement_ && refinement_ > 1) {
+    refinement_ /= 2;
+  }
+  return refinement_;
+}
+
+template <class Real>
 AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<Real> forces,
                                              Contact<Real>* contact, std::vector<Solid>& solids, double time,
                                              double dt) {
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   AdvanceReport report;
-  double squared_frequency = forces.springs->max_squared_frequency(particles.mass);
-  if (forces.springs->limited()) squared_frequency *= 1 + 2 * kLimitDamping;
-  const double effects_rate = forces.max_damping_rate(particles);
-  const double rate = effects_rate + forces.springs->max_damping_rate(particles.mass);
-  if (forces.plate != nullptr) squared_frequency += forces.plate->max_squared_frequency(particles.mass);
-  report.substeps = description_.substeps > 0
-                        ? description_.substeps
-                        : stable_substeps(squared_frequency, rate, dt, description_.safety);
-  const double h = dt / report.substeps;
-  if (description_.substeps == 0 && !(squared_frequency * h * h + 2 * rate * h <= 4)) {
-    report.sound = false;  // not even the most substeps are stable
-    return report;
-  }
-  // What the rate may grow to within this step: half of the room that the springs leave.
-  forces.context.damping_limit = std::max(rate, (4 - squared_frequency * h * h) / (4 * h));
-  const bool slow = description_.substeps == 0 && forces.any_slow();
-  const int together = slow ? together_at(effects_rate, h) : 1;
+  const Plan plan = this->plan(particles, forces, dt);
+  report.substeps = plan.substeps;
+  report.sound = plan.stable;
+  if (!plan.stable) return report;  // not even by the most substeps
+  const double h = dt / plan.substeps;
+  const int together = plan.together;
+  forces.context.damping_limit = plan.damping_limit;
   forces.context.time = time;
   int blow_begin = 0, blow_end = 0;
   if (together > 1) {

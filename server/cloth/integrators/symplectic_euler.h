@@ -15,7 +15,8 @@ inline constexpr int kMaxSubsteps = 10000;
 /// Where it chooses the substeps itself, slow effects (Effect::slow) are found once for several of them. What
 /// has lasted of them is spread over these substeps, and the rest, drag above all, is given at one blow in
 /// their midst: the impulse method of Tuckerman, Berne and Martyna (Reversible multiple time scale molecular
-/// dynamics, 1992), which would have a taut sheet in a steady wind ring if all of it came in blows.
+/// dynamics, 1992), which would have a taut sheet in a steady wind ring if all of it came in blows. And there
+/// are more substeps than the stiffest mode asks for while springs may turn over.
 template <class Real>
 class SymplecticEuler final : public Integrator<Real> {
  public:
@@ -23,8 +24,25 @@ class SymplecticEuler final : public Integrator<Real> {
   const char* name() const override { return SymplecticEulerDescription::kName; }
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         std::vector<Solid>& solids, double time, double dt) override;
+  void restart() override { refinement_ = 1; }
+  void take_memory(const Integrator<Real>& other) override {
+    refinement_ = static_cast<const SymplecticEuler&>(other).refinement_;
+  }
 
  private:
+  struct Plan {
+    int substeps;
+    double damping_limit;  ///< 1/s (EffectContext)
+    bool stable;
+    int together = 1;  ///< substeps for which slow effects are found once
+  };
+  /// Of a step of dt seconds.
+  Plan plan(const Particles<Real>& particles, const Forces<Real>& forces, double dt);
+  /// How many times the substeps of h seconds that stable_substeps asks for are to be made while springs move
+  /// like this; `frequency` is that of their stiffest mode, 1/s. A power of two, kept until a quarter would
+  /// do: each change of the substeps changes what symplectic Euler keeps instead of the energy.
+  int refinement(const kernels::SpringMotion& most, double frequency, double h);
+
   /// What the springs' damping does in a substep of h seconds that begins at forces.context.time.
   void add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h);
 
@@ -34,6 +52,7 @@ class SymplecticEuler final : public Integrator<Real> {
   void blow(Particles<Real>& particles, const Forces<Real>& forces, double h, int together);
 
   SymplecticEulerDescription description_;
+  int refinement_ = 1;  ///< of the step before
   VectorField<Real> force_;
   /// Slow effects: what they do now, what of it has lasted; and velocities. Empty unless blows are given.
   VectorField<Real> slow_, lasting_, velocity_;

@@ -1,5 +1,5 @@
 #pragma once
-#include "cloth/kernels/components.h"
+#include "cloth/kernels/spring_kernels.h"
 
 namespace weft::kernels {
 
@@ -16,5 +16,16 @@ StateExtremes<float> state_extremes(const Grid& grid, Components<const float> po
                                     Components<const float> velocity);
 StateExtremes<double> state_extremes(const Grid& grid, Components<const double> position,
                                      Components<const double> velocity);
+
+/// The largest of the structural and shear springs that are there, as shares of their length at rest.
+struct SpringMotion {
+  double strain = 0;  ///< by how much one is longer or shorter
+  double speed = 0;   ///< 1/s, of one end past the other, in any direction
+};
+
+SpringMotion spring_motion(const SpringLattice<float>& springs, const Grid& grid,
+                           Components<const float> position, Components<const float> velocity);
+SpringMotion spring_motion(const SpringLattice<double>& springs, const Grid& grid,
+                           Components<const double> position, Components<const double> velocity);
 
 }  // namespace weft::kernels

@@ -37,6 +37,33 @@ struct TornSheet {
   bool is_cut(const test::ListedSpring& s) const { return torn->torn(s.r0, s.c0, s.r1 - s.r0, s.c1 - s.c0); }
 };
 
+TEST(TornSprings, DoNotCountAsMoving) {
+  const TornSheet sheet;
+  Particles<double> particles(sheet.position.grid());
+  particles.position = sheet.position;
+  test::randomise(particles.velocity, -5, 5, 6);
+  for (const bool torn : {false, true}) {
+    Springs<double> springs = sheet.springs(0, false);
+    if (!torn) springs.tear(nullptr);
+    kernels::SpringMotion expected;
+    for (const SpringFamily& family : springs.families()) {
+      if (std::max(std::abs(family.rows), std::abs(family.cols)) == 2) continue;  // bending
+      for (const auto& s : test::list_springs({family}, particles.grid())) {
+        if (torn && sheet.is_cut(s)) continue;
+        const double length =
+            (get(particles.position, s.r0, s.c0) - get(particles.position, s.r1, s.c1)).norm();
+        const double speed =
+            (get(particles.velocity, s.r0, s.c0) - get(particles.velocity, s.r1, s.c1)).norm();
+        expected.strain = std::max(expected.strain, std::abs(length - s.rest_length) / s.rest_length);
+        expected.speed = std::max(expected.speed, speed / s.rest_length);
+      }
+    }
+    const kernels::SpringMotion found = springs.motion(particles);
+    EXPECT_NEAR(found.strain, expected.strain, 1e-13 * expected.strain) << torn;
+    EXPECT_NEAR(found.speed, expected.speed, 1e-13 * expected.speed) << torn;
+  }
+}
+
 TEST(TornSprings, PushAndHoldWhatTheOthersDo) {
   const TornSheet sheet;
   for (const bool limited : {false, true}) {
