@@ -16,6 +16,7 @@ namespace weft {
 struct DampingRates {
   double slow = 0;  ///< of those that are slow (Effect::slow)
   double other = 0;
+  double sum() const { return slow + other; }
 };
 
 /// Everything that pushes one cloth, at one level.

@@ -56,8 +56,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
   }
   // Explicit drag reverses velocities where its rate exceeds 1/h: forces are then scaled so that it stops
   // them at most, which leaves every terminal velocity as it is.
-  const DampingRates rates = forces.max_damping_rates(particles);
-  const double rate = rates.slow + rates.other;
+  const double rate = forces.max_damping_rates(particles).sum();
   const double force_share = rate * h > 1 ? 1 / (rate * h) : 1;
   forces.context.damping_limit = std::max(rate, 1 / h);
   for (int s = 0; s < report.substeps; ++s) {

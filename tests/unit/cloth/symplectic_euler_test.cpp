@@ -6,6 +6,7 @@
 
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "cloth/diagnostics.h"
 #include "rig.h"
@@ -206,6 +207,7 @@ TEST(StableSubsteps, TheCriterionIsThatOfTheSchemesRoots) {
 struct CrumpledSheet {
   double energy_before, energy_after;  ///< J, of springs and motion
   int first_substeps, last_substeps;
+  int changes = 0;  ///< of the substeps from one step to the next
 
   explicit CrumpledSheet(double most, int substeps = 0) {
     Rig<double> rig = test::sheet_rig<double>(17, 17, SymplecticEulerDescription{substeps, 0.6}, {},
@@ -219,22 +221,28 @@ struct CrumpledSheet {
       return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
     };
     energy_before = energy();
-    first_substeps = rig.advance(0, kFrame).substeps;
-    for (int step = 1; step < 60; ++step) last_substeps = rig.advance(step * kFrame, kFrame).substeps;
+    first_substeps = last_substeps = rig.advance(0, kFrame).substeps;
+    for (int step = 1; step < 60; ++step) {
+      const int before = std::exchange(last_substeps, rig.advance(step * kFrame, kFrame).substeps);
+      if (last_substeps != before) ++changes;
+    }
     energy_after = energy();
   }
 };
 
 TEST(StableSubsteps, AreMoreWhileSpringsTurnOver) {
-  // The method keeps energy up to a share that goes with the substep, were there no springs that turn. Cells
-  // of 0.125 m whose nodes lie up to 0.3 m off: without more substeps the sheet gains without end.
-  const double kKept = 0.02;
-  const CrumpledSheet wild(0.3);
-  EXPECT_NEAR(wild.energy_after / wild.energy_before, 1, kKept);
+  // Cells of 0.125 m, whose nodes lie up to as much off, or 0.3 m. Nothing takes energy or brings any in, so
+  // there should be as much in the end; the sheets are within 0.0012 of it. By the fewest substeps the second
+  // has 20 times as much; by those that each step alone asks for, 34 changes, the first 1.04 times.
   const int fewest = CrumpledSheet(1e-6).first_substeps;
-  EXPECT_EQ(wild.last_substeps % fewest, 0);  // a number that is kept, a power of two times as many
-  EXPECT_GE(wild.first_substeps, 4 * fewest);
-  EXPECT_GT(CrumpledSheet(0.3, fewest).energy_after, 2 * wild.energy_before);
+  for (const double most : {0.11, 0.3}) {
+    const CrumpledSheet wild(most);
+    EXPECT_NEAR(wild.energy_after / wild.energy_before, 1, 0.005) << most;
+    EXPECT_GE(wild.first_substeps, 4 * fewest) << most;
+    EXPECT_LE(wild.changes, 2) << most;
+  }
+  const CrumpledSheet heated(0.3, fewest);
+  EXPECT_GT(heated.energy_after, 2 * heated.energy_before);
   // Ends that come nearer by at most 2 sqrt(3) 0.03 = 0.104 m do not pass: no more substeps than the stiffest
   // mode needs.
   EXPECT_EQ(CrumpledSheet(0.03).last_substeps, fewest);
