@@ -1,7 +1,6 @@
 #pragma once
+#include "cloth/layers/cell_features.h"
 #include "cloth/layers/layer_nodes.h"
-#include "cloth/layers/patch_tree.h"
-#include "cloth/tear/torn_links.h"
 
 namespace weft {
 
@@ -33,9 +32,14 @@ class FeatureSearch {
   /// All pairs that come as near as `margin`, m, and some more. Those of tangled nodes are left out. Valid
   /// until the next call.
   const std::vector<FeaturePair>& find(const LayerNodes& nodes, double margin);
-  /// What was found last, for the same starts, with all that come as near as `margin`: found again if the
-  /// ends are others by now than can be told from it. `again` is the margin then.
+  /// What was found last, for the same starts, with all that come as near as `margin`. What belongs to nodes
+  /// whose ends are others by now than can be told from it is found again; if these are many, all is, with
+  /// the margin `again`.
   const std::vector<FeaturePair>& found(const LayerNodes& nodes, double margin, double again);
+  /// Goes on from what `other` has found: these are its nodes from `first` on, a whole sheet or several.
+  void take_over(const FeatureSearch& other, std::uint32_t first, const LayerNodes& nodes);
+  /// Nothing was found.
+  void forget() { margin_ = 0; }
   /// The last search's pairs, valid until the next one, and its margin, m: 0 if nothing was found.
   const std::vector<FeaturePair>& pairs() const { return pairs_; }
   double margin() const { return margin_; }
@@ -54,18 +58,30 @@ class FeatureSearch {
     std::uint32_t first;
     std::vector<std::uint16_t> left;   ///< of each cell's own features, as bits; empty while it is whole
     std::vector<std::uint16_t> found;  ///< pairs of each cell
+    std::vector<CellFeatures> features;
+    std::vector<std::size_t> seen;  ///< of each cell, the last search that has made its features
     bool crowded = false;
   };
   /// Of a cell above or before another one.
   static bool has_triangles(const Sheet& sheet, int row, int col);
-  static Vec3 common_motion(const LayerNodes& nodes);
-  /// Calls visit(sheet a, sheet b, cell pairs) for all that come near.
+  /// Calls visit(index) for the nodes of all sheets.
+  template <class Visit>
+  void for_each_node(Visit visit) const;
+  bool has_strayed(const FeaturePair& pair) const;
+  /// To the ways from `nodes`' starts to end_.
+  void fit(Sheet& sheet, const LayerNodes& nodes);
+  /// In the search under way; made when first asked for.
+  const CellFeatures& features(Sheet& sheet, Cell cell, const LayerNodes& nodes);
+  /// Adds what comes as near as margin_ on its ways to end_; of strayed nodes alone, or all.
+  void search(const LayerNodes& nodes, bool of_strayed);
+  /// Calls visit(sheet a, sheet b) with cells_ for all that come near.
   template <class Visit>
   void for_each_sheets(double margin, Visit visit);
 
   std::vector<Sheet> sheets_;
-  std::vector<Vec3> end_;  ///< as seen from the common motion
-  double margin_ = 0;      ///< of the last search
+  std::vector<Vec3> start_, end_;  ///< of the last search, ends as seen from the common motion
+  std::vector<char> strayed_;      ///< nodes that end elsewhere than it saw them
+  double margin_ = 0;              ///< of it
   std::vector<std::array<Cell, 2>> cells_;
   std::vector<FeaturePair> pairs_;
   std::size_t cell_pairs_ = 0, searches_ = 0;

@@ -18,7 +18,7 @@ constexpr float kSoft = 50, kStiff = 5000;
 /// and are then held this part of their own apart at least. A strip wrung by four turns had, without them,
 /// eight times its work put in by the net, and with them a fifteenth.
 constexpr int kMostRounds = 4;
-constexpr double kPairsInSight = 1.5, kMeetingPart = 0.4;
+constexpr double kPairsInSight = 1.5, kPairsFound = 8, kMeetingPart = 0.4;
 /// Pairs in which a node, or the edges that begin at it, are held anew in a round: a bound on memory.
 constexpr std::uint8_t kMostOfNode = 128;
 /// By how much it changes in a step, and the parts of the gap above and below which it does.
@@ -86,6 +86,11 @@ void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep&
       own_.end[i] = own_.start[i];
       own_.start[i] += (1 - substep.from / substep.to) * (nodes_->start[first_ + i] - own_.start[i]);
     }
+  }
+  if (substep.from == 0) {
+    search_.take_over(*found_, first_, own_);
+  } else {
+    search_.forget();
   }
   const double drop = standard_gravity().norm() * substep.seconds * substep.seconds;
   for (const LayerPair& pair : pairs_) {
@@ -230,7 +235,8 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
   std::map<std::pair<std::array<std::size_t, 4>, bool>, std::size_t> known;
   const auto nodes_of = [](const Constraint& c) { return std::pair(c.coupling.node, c.edges); };
   bool any = false;
-  for (const FeaturePair& features : search_.find(own_, kPairsInSight * parameters_.net_gap)) {
+  for (const FeaturePair& features :
+       search_.found(own_, kPairsInSight * parameters_.net_gap, kPairsFound * parameters_.net_gap)) {
     if (met_[features.node[0]] == kMostOfNode) continue;
     const std::optional<LayerPair> pair = meeting(features);
     if (!pair) continue;

@@ -33,7 +33,7 @@ Cell child(Cell patch, std::size_t i) {
 PatchTree::PatchTree(const Grid& grid) : grid_(grid) {
   int rows = grid.rows - 1, cols = grid.cols - 1;
   for (;;) {
-    levels_.push_back({rows, cols, std::vector<Patch>(static_cast<std::size_t>(rows * cols))});
+    levels_.push_back({rows, cols, std::vector<Patch>(static_cast<std::size_t>(rows * cols)), {}});
     if (rows % 2 != 0 || cols % 2 != 0) break;
     rows /= 2;
     cols /= 2;
@@ -41,6 +41,7 @@ PatchTree::PatchTree(const Grid& grid) : grid_(grid) {
 }
 
 void PatchTree::refit(const Vec3* start, const Vec3* end) {
+  for (Level& level : levels_) level.marked.clear();
   Level& cells = levels_.front();
   for (int r = 0; r < cells.rows; ++r) {
     for (int c = 0; c < cells.cols; ++c) {
@@ -76,6 +77,23 @@ void PatchTree::refit(const Vec3* start, const Vec3* end) {
   }
   bounds_ = {};
   for (const Patch& patch : levels_.back().patches) bounds_.extend(patch.place);
+}
+
+void PatchTree::mark(const char* nodes) {
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    Level& now = levels_[level];
+    now.marked.resize(now.patches.size());
+    for (int r = 0; r < now.rows; ++r) {
+      for (int c = 0; c < now.cols; ++c) {
+        bool any = false;
+        for (std::size_t i = 0; i < 4; ++i) {
+          any = any || (level == 0 ? nodes[grid_.index(r + kChildren[i][0], c + kChildren[i][1])] != 0
+                                   : levels_[level - 1].has_marked(child({r, c}, i)));
+        }
+        now.marked[now.index(r, c)] = any ? 1 : 0;
+      }
+    }
+  }
 }
 
 bool PatchTree::one_to_one(const Patch& patch) {
@@ -119,7 +137,8 @@ void PatchTree::find_own_pairs(double margin, std::vector<std::array<Cell, 2>>& 
 
 void PatchTree::own(std::size_t level, Cell patch, double margin,
                     std::vector<std::array<Cell, 2>>& pairs) const {
-  if (pairs.size() == kMostPairs || one_to_one(levels_[level].at(patch))) return;
+  if (pairs.size() == kMostPairs || !levels_[level].has_marked(patch) || one_to_one(levels_[level].at(patch)))
+    return;
   if (level == 0) {
     pairs.push_back({patch, patch});
     return;
@@ -134,8 +153,9 @@ void PatchTree::own(std::size_t level, Cell patch, double margin,
 
 void PatchTree::pair(std::size_t level, Cell a, Cell b, double margin,
                      std::vector<std::array<Cell, 2>>& pairs) const {
-  if (pairs.size() == kMostPairs) return;
-  if (!levels_[level].at(a).place.near(levels_[level].at(b).place, margin) || one_to_one(level, a, b)) return;
+  const Level& patches = levels_[level];
+  if (pairs.size() == kMostPairs || !(patches.has_marked(a) || patches.has_marked(b))) return;
+  if (!patches.at(a).place.near(patches.at(b).place, margin) || one_to_one(level, a, b)) return;
   if (level == 0) {
     pairs.push_back({a, b});
     return;
@@ -158,8 +178,9 @@ void PatchTree::find_pairs(const PatchTree& other, double margin,
 
 void PatchTree::pair(std::size_t level, Cell a, const PatchTree& other, std::size_t other_level, Cell b,
                      double margin, std::vector<std::array<Cell, 2>>& pairs) const {
-  if (pairs.size() == kMostPairs) return;
-  if (!levels_[level].at(a).place.near(other.levels_[other_level].at(b).place, margin)) return;
+  const Level &patches = levels_[level], &others = other.levels_[other_level];
+  if (pairs.size() == kMostPairs || !(patches.has_marked(a) || others.has_marked(b))) return;
+  if (!patches.at(a).place.near(others.at(b).place, margin)) return;
   if (level == 0 && other_level == 0) {
     pairs.push_back({a, b});
     return;

@@ -60,6 +60,9 @@ class PatchTree {
   void set_torn(std::vector<std::uint32_t> cells) { torn_ = std::move(cells); }
   /// The nodes' ways, straight from `start` to `end`; both as many as grid.size().
   void refit(const Vec3* start, const Vec3* end);
+  /// Until the next refit pairs are found only where one of the two cells has a marked corner: `nodes` is of
+  /// each of grid.size() nodes. To be called for both sheets of find_pairs or for neither.
+  void mark(const char* nodes);
   /// Of the whole sheet.
   const Bounds& bounds() const { return bounds_; }
 
@@ -76,6 +79,8 @@ class PatchTree {
   struct Level {
     int rows = 0, cols = 0;
     std::vector<Patch> patches;
+    std::vector<char> marked;  ///< empty if all are
+    bool has_marked(Cell c) const { return marked.empty() || marked[index(c.row, c.col)] != 0; }
     const Patch& at(Cell c) const { return patches[index(c.row, c.col)]; }
     std::size_t index(int row, int col) const {
       return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 #include "cloth/layers/feature_search.h"
 
@@ -50,6 +51,26 @@ LayerNodes folded(const Grid& grid) {
   }
   nodes.end = nodes.velocity = nodes.acceleration = nodes.start;
   return nodes;
+}
+
+/// Every `each`th node ends up to 5 mm off its start.
+void stray(LayerNodes& nodes, const Grid& grid, int each) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> value(-0.005, 0.005);
+  for (int i = 0; i < grid.nodes(); i += each) {
+    const std::size_t node = grid.index(i / grid.cols, i % grid.cols);
+    nodes.end[node] = nodes.start[node] + Vec3(value(random), value(random), value(random));
+  }
+}
+
+/// Those of `expected` that are not among `found`.
+std::size_t missing(const std::vector<FeaturePair>& expected, const std::vector<FeaturePair>& found) {
+  const auto key = [](const FeaturePair& pair) { return std::pair(pair.kind, pair.node); };
+  std::set<std::pair<Kind, std::array<std::uint32_t, 4>>> known;
+  for (const FeaturePair& pair : found) known.insert(key(pair));
+  EXPECT_EQ(known.size(), found.size()) << "a pair is there twice";
+  return static_cast<std::size_t>(std::count_if(
+      expected.begin(), expected.end(), [&](const auto& pair) { return !known.contains(key(pair)); }));
 }
 
 }  // namespace
@@ -150,6 +171,58 @@ TEST(FeatureSearch, FindsAllThatIsNearInAFoldAndNothingInAFlatSheet) {
   }
   EXPECT_TRUE(search.find(nodes, margin).empty());
   EXPECT_EQ(search.cell_pairs(), 0u);
+}
+
+// Against a search of all: what the few that strayed come near is found, in less than a fifth of the pairs of
+// cells.
+TEST(FeatureSearch, LooksAgainAtWhatHasStrayed) {
+  const Grid grid = Grid::with_nodes(65, 65);
+  LayerNodes nodes = folded(grid);
+  FeatureSearch search, anew;
+  for (FeatureSearch* each : {&search, &anew}) each->set_grids({grid});
+  search.find(nodes, 0.005);
+  const std::size_t of_all = search.cell_pairs(), before = search.searches();
+  for (Vec3& x : nodes.end) x += Vec3(1, 2, 3);  // all the same way: nothing comes nearer
+  search.found(nodes, 0.001, 0.005);
+  EXPECT_EQ(search.searches(), before);
+  nodes.end = nodes.start;
+  stray(nodes, grid, 97);
+  const std::vector<FeaturePair> expected = anew.find(nodes, 0.001);
+  EXPECT_GT(missing(expected, search.pairs()), 20u);
+  EXPECT_EQ(missing(expected, search.found(nodes, 0.001, 0.005)), 0u);
+  EXPECT_EQ(search.searches(), before + 1);
+  EXPECT_LT(search.cell_pairs(), of_all / 5);
+  EXPECT_EQ(search.margin(), 0.005);
+  stray(nodes, grid, 2);  // many: all are looked at
+  EXPECT_EQ(missing(anew.find(nodes, 0.001), search.found(nodes, 0.001, 0.002)), 0u);
+  EXPECT_EQ(search.margin(), 0.002);
+}
+
+// The second of two folded sheets 1 m apart: what the scene's search has found of it, with its nodes'
+// numbers.
+TEST(FeatureSearch, GoesOnFromTheScenesSearch) {
+  const Grid grid = Grid::with_nodes(17, 33);
+  const auto size = static_cast<std::uint32_t>(grid.size());
+  LayerNodes own = folded(grid), all = own;
+  stray(own, grid, 50);
+  for (auto member : {&LayerNodes::start, &LayerNodes::end}) {
+    for (const Vec3& x : own.*member) (all.*member).push_back(x + Vec3(0, 1, 0));
+    for (Vec3& x : own.*member) x += Vec3(0, 1, 0);
+  }
+  all.first = {0, size, 2 * size};
+  all.inverse_mass.insert(all.inverse_mass.end(), own.inverse_mass.begin(), own.inverse_mass.end());
+  all.tangled.assign(2 * grid.size(), 0);
+  FeatureSearch scene, search, anew;
+  scene.set_grids({grid, grid});
+  for (FeatureSearch* each : {&search, &anew}) each->set_grids({grid});
+  scene.find(all, 0.008);
+  search.take_over(scene, size, own);
+  EXPECT_EQ(missing(anew.find(own, 0.004), search.found(own, 0.004, 0.008)), 0u);
+  EXPECT_EQ(search.searches(), 0u);
+  for (Vec3& x : own.start) x.x() += 1e-6;  // it begins elsewhere: all is found anew
+  search.take_over(scene, size, own);
+  EXPECT_EQ(missing(anew.find(own, 0.004), search.found(own, 0.004, 0.008)), 0u);
+  EXPECT_EQ(search.searches(), 1u);
 }
 
 // Where all is near all, 4,096 cells are 8.4 million pairs of cells with 13 pairs of features
