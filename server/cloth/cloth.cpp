@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "cloth/diagnostics.h"
 #include "cloth/refine.h"
 #include "cloth/start.h"
 #include "cloth/tear/mend.h"
@@ -47,6 +48,9 @@ void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
   std::move(added, effects_.end(), std::back_inserter(composed));
   effects_ = std::move(composed);
   composed_ = count;
+  const Vec3 gravity = total_gravity(effects);
+  had_ += gravitational_energy(particles_, gravity - gravity_);
+  gravity_ = gravity;
   damping_time_ = 0;
   bends_plate_ = limits_strain_ = false;
   tearing_.reset();
@@ -83,6 +87,11 @@ double Cloth<Real>::elastic_energy() const {
 }
 
 template <class Real>
+double Cloth<Real>::energy_of_nodes() const {
+  return kinetic_energy(particles_) + gravitational_energy(particles_, gravity_);
+}
+
+template <class Real>
 void Cloth<Real>::request_level(int level) {
   pending_level_ = std::clamp(level, description_.min_level, description_.max_level);
 }
@@ -99,6 +108,7 @@ bool Cloth<Real>::apply_pending_level() {
   if (!changes) return false;
   guard_.repair(particles_);
   held_ = elastic_energy();
+  had_ = held_ + energy_of_nodes();
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
@@ -222,6 +232,7 @@ void Cloth<Real>::set_material(const Material& material) {
   const double before = elastic_energy();
   make_springs();
   held_ += elastic_energy() - before;  // what it gains so is no level's
+  had_ += elastic_energy() - before;
   integrator_->stiffness_changed();
   hand_to_guard();
   wake();

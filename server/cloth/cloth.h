@@ -130,6 +130,7 @@ class Cloth {
   Vec2 cell(const Grid& grid) const {
     return description_.size.cwiseQuotient(Vec2(grid.cols - 1, grid.rows - 1));
   }
+  double energy_of_nodes() const;  ///< J, of motion and height
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
   void make_springs();
@@ -153,10 +154,12 @@ class Cloth {
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
   Unsettled settled_ = Unsettled::no;    ///< in this step already; again, if it is taken back
   double held_ = 0;                      ///< J, by springs and plate before the last change of level
+  double had_ = 0;                       ///< J, all energy then
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;                         ///< s, at the end of the last step that was made
+  Vec3 gravity_{0, 0, 0};                   ///< m/s2, of all gravity effects
   double damping_time_ = 0;                 ///< s, of the springs (StrainDampingEffect)
   bool bends_plate_ = false;                ///< PlateBendingEffect is there
   bool limits_strain_ = false;              ///< StrainLimitEffect is there

@@ -21,6 +21,9 @@ void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time, dou
   if (unsettled_ == Unsettled::no) return;
   settle(particles_, unsettled_, forces({.cloth = &description_, .time = time}),
          solids.empty() ? nullptr : &contact(), solids, dt, held_);
+  // Springs that expand against a pin lift the sheet: at one pin a merge gave 2 m of cloth 0.15 J of height.
+  if (unsettled_ == Unsettled::by_gain)
+    take_from_motion(particles_, std::max(0.0, elastic_energy() + energy_of_nodes() - had_));
   settled_ = std::exchange(unsettled_, Unsettled::no);
 }
 

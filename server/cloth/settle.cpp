@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "cloth/solver/node_vector.h"
+
 namespace weft {
 namespace {
 
@@ -24,6 +26,12 @@ int steps_from(Unsettled by) {
       return 3;
   }
 }
+
+/// Each of those steps lasts so many times as long as the one before: what the first ones, which a fold
+/// outlasts, leave are folds that shift. Of 0.63 J that a merge gives to a light sheet's folds (random scene
+/// 1219) twelve equal steps leave 19 mJ, three hundred 7.9, these 7.6; with 2 in place of 1.5 they overshoot
+/// and leave 15.
+constexpr double kLonger = 1.5;
 
 /// Springs and plate hold no more than `energy`, J.
 template <class Real>
@@ -76,16 +84,50 @@ void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   forces.context.wind = &calm;
   const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
   bool sound = true;
+  double lasts = std::min(crossing, longest);
   for (int step = 0; step < steps_from(by) && sound; ++step) {
     stop(particles);
-    sound =
-        relaxing->advance(particles, forces, contact, still, forces.context.time, std::min(crossing, longest))
-            .sound;
-    if (by == Unsettled::by_gain && hold_at_most(enough, particles, forces)) break;
+    sound = relaxing->advance(particles, forces, contact, still, forces.context.time, lasts).sound;
+    if (by != Unsettled::by_gain) continue;
+    if (hold_at_most(enough, particles, forces)) break;
+    lasts *= kLonger;
   }
   if (!sound) particles.position = before.position;
   particles.velocity = before.velocity;
   particles.acceleration = before.acceleration;
+}
+
+template <class Real>
+void take_from_motion(Particles<Real>& particles, double energy) {
+  const Grid& grid = particles.grid();
+  Vec3 mean(0, 0, 0);
+  double mass = 0;
+  bool pinned = false;
+  const auto for_each_free = [&](auto visit) {
+    for (int r = 0; r < grid.rows; ++r) {
+      for (std::size_t i = grid.index(r, 0); i < grid.index(r, grid.cols); ++i) {
+        if (particles.inverse_mass.values()[i] > 0) {
+          visit(i, double(particles.mass.values()[i]));
+        } else {
+          pinned = true;
+        }
+      }
+    }
+  };
+  const auto velocity = kernels::components(particles.velocity);
+  for_each_free([&](std::size_t i, double m) {
+    mean += m * at<Real>(velocity, i);
+    mass += m;
+  });
+  if (mass == 0) return;
+  mean = pinned ? Vec3(0, 0, 0) : Vec3(mean / mass);
+  double motion = 0;  // J
+  for_each_free(
+      [&](std::size_t i, double m) { motion += m * (at<Real>(velocity, i) - mean).squaredNorm() / 2; });
+  if (motion == 0) return;
+  const double kept = std::sqrt(std::max(0.0, 1 - energy / motion));
+  for_each_free(
+      [&](std::size_t i, double) { add(velocity, i, Vec3((kept - 1) * (at<Real>(velocity, i) - mean))); });
 }
 
 template bool is_put_onto<float>(const Particles<float>&, Contact<float>&, const std::vector<Solid>&);
@@ -94,5 +136,7 @@ template void settle<float>(Particles<float>&, Unsettled, Forces<float>, Contact
                             const std::vector<Solid>&, double, double);
 template void settle<double>(Particles<double>&, Unsettled, Forces<double>, Contact<double>*,
                              const std::vector<Solid>&, double, double);
+template void take_from_motion<float>(Particles<float>&, double);
+template void take_from_motion<double>(Particles<double>&, double);
 
 }  // namespace weft

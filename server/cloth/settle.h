@@ -30,12 +30,17 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 /// stay as they were. Each lasts as long as a wave of stretch takes to run across the sheet, sqrt(density /
 /// structural) times its size (`longest`, s, at most): what is stretched evens out, folds keep their shape.
 ///
-/// There are no more of them once springs and plate hold no more than `enough`, J, which is only asked
-/// by_gain.
+/// By_gain there are no more of them once springs and plate hold no more than `enough`, J, and each lasts
+/// longer than the one before.
 ///
 /// Nothing happens if no relaxed state is found.
 template <class Real>
 void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
             const std::vector<Solid>& solids, double longest, double enough = 0);
+
+/// Takes so much energy, J, from the free nodes' motion, or what there is of it: all are slowed down in
+/// proportion. Where nothing is pinned it is their motion about their mean velocity, so that momentum stays.
+template <class Real>
+void take_from_motion(Particles<Real>& particles, double energy);
 
 }  // namespace weft

@@ -68,6 +68,7 @@ void Cloth<Real>::take_state(const Cloth& other) {
   unsettled_ = other.unsettled_;
   settled_ = other.settled_;
   held_ = other.held_;
+  had_ = other.had_;
   begins_ = other.begins_;
   particles_ = other.particles_;
   time_ = other.time_;
