@@ -1,8 +1,9 @@
 """What a scene does not call for costs nothing: none of its functions is ever entered.
 
 Each effect's or other part's scene is run under callgrind with it and without it. With it its class is entered, which shows that the test would see
-it; without it neither the class nor a kernel of its own is.
+it; without it neither the class nor a kernel of its own is. By an implicit, a projective and an explicit method: each has kernels of its own.
 """
+import itertools
 import json
 import os
 import pathlib
@@ -14,6 +15,9 @@ import unittest
 WEFT = os.environ["WEFT_BINARY"]
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "server" / "scene" / "scene.schema.json"
 
+# Each method's own step.
+METHODS = {"bdf2": "weft::Implicit<float>::advance", "xpbd": "weft::Xpbd<float>::advance",
+           "symplectic_euler": "weft::SymplecticEuler<float>::advance"}
 # Effect: its fields, and patterns of functions that are entered with it and never without it. A kernel's name
 # without "clone" chooses among its instruction sets when the program is loaded.
 EFFECTS = {
@@ -21,13 +25,13 @@ EFFECTS = {
     "damping": ({}, ["weft::Damping<"]),
     "paper_wind": ({}, ["weft::PaperWind<", r"kernels::add_push.*clone"]),
     "aerodynamics": ({}, ["weft::Aerodynamics<", r"kernels::add_air_.*clone"]),
-    "strain_damping": ({"time": 0.005}, [r"kernels::add_(growth|strain)_damping.*clone"]),
+    "strain_damping": ({"time": 0.005}, [r"kernels::(add_(growth|strain)_damping|recall).*clone"]),
     "inflation": ({}, ["weft::Inflation<", r"kernels::add_pressure.*clone"]),
-    "strain_limit": ({}, [r"kernels::\w*limited_spring.*clone"]),
-    "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet)::"]),
+    "strain_limit": ({}, [r"kernels::\w*limit\w*<.*clone"]),
+    "cloth_contact": ({}, [r"weft::(Layers|LayerContacts)<\w+>::", r"weft::(PatchTree|FeatureSearch|CollisionNet|SubstepNet)::"]),
     # Not in one scene with cloth_contact: in the other half of the list.
-    "tearing": ({"strength": 0.01}, [r"weft::link_loads<", r"weft::Walls::", r"kernels::\w*torn_\w*.*clone"]),
-    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax)_plate.*clone"]),
+    "tearing": ({"strength": 0.01}, [r"weft::link_loads<", r"weft::Walls::", r"kernels::\w*torn\w*<.*clone"]),
+    "plate_bending": ({}, [r"weft::Plate<\w+>::", r"kernels::(add|subtract|relax|project)_plate.*clone"]),
 }
 
 BALL = {"type": "ball", "position": [0, -0.2, 0.05], "radius": 0.1}
@@ -42,16 +46,18 @@ PARTS = [
 ]
 
 
-def functions_entered(effects, folder, colliders=(), wind=None, cloth=None):
-    """Names of all functions entered while a small hung sheet is stepped 12 times with these effects."""
-    scene = {"title": "hung", "effects": effects, "integrator": {"type": "bdf2"},
+def functions_entered(effects, folder, colliders=(), wind=None, cloth=None, method="bdf2"):
+    """Names of all functions entered while a small hung sheet is stepped 6 times with these effects. It is heavy and soft, so that explicit
+    substeps are few."""
+    scene = {"title": "hung", "effects": effects, "integrator": {"type": method},
              "colliders": list(colliders),
-             "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4}, **(cloth or {})}]}
+             "cloths": [{"size": [1, 1], "pins": ["top_left"], "levels": {"min": 4, "max": 4},
+                         "material": {"density": 1, "structural": 50, "shear": 5, "bending": 0.5, "rigidity": 1e-6}, **(cloth or {})}]}
     if any(effect["type"] in ("paper_wind", "aerodynamics") for effect in effects):
         scene["wind"] = {"speed": 3, **(wind or {})}
     file, out = folder / "scene.json", folder / "callgrind.out"
     file.write_text(json.dumps(scene))
-    subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={out}", WEFT, "run", str(file), "--frames", "12",
+    subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={out}", WEFT, "run", str(file), "--frames", "6",
                     "--level", "4"], check=True, stdout=subprocess.DEVNULL)
     return set(re.findall(r"^c?fn=\(\d+\) (.+)$", out.read_text(), re.MULTILINE))
 
@@ -65,13 +71,13 @@ class AbsentEffects(unittest.TestCase):
         # Two runs show all: one half of the effects, then the other.
         names = list(EFFECTS)
         with tempfile.TemporaryDirectory() as folder:
-            for present in (names[::2], names[1::2]):
-                entered = functions_entered([{"type": name, **EFFECTS[name][0]} for name in present], pathlib.Path(folder))
-                self.assertTrue(any("Implicit<float>::advance" in name for name in entered), "nothing was stepped")
+            for method, present in itertools.product(METHODS, (names[::2], names[1::2])):
+                entered = functions_entered([{"type": name, **EFFECTS[name][0]} for name in present], pathlib.Path(folder), method=method)
+                self.assertEqual({step for step in METHODS.values() if any(step in name for name in entered)}, {METHODS[method]})
                 for name in names:
                     for mark in EFFECTS[name][1]:
                         seen = sorted(function for function in entered if re.search(mark, function))
-                        with self.subTest(effect=name, mark=mark, present=present):
+                        with self.subTest(effect=name, mark=mark, present=present, method=method):
                             self.assertEqual(bool(seen), name in present, seen)
 
     def test_wind_that_varies_is_entered_only_where_it_does(self):
@@ -96,14 +102,15 @@ class AbsentEffects(unittest.TestCase):
                    {"sewn": True, "pins": [{"u": [0, 1], "v": [0, 0], "path": path}]}),
                   ([air, {"type": "gravity"}, {"type": "inflation"}], [RING, FLOOR, body], {"zones": [zone]}, {})]
         with tempfile.TemporaryDirectory() as folder:
-            for here, (effects, colliders, wind, cloth) in zip(PARTS, scenes):
-                entered = functions_entered(effects, pathlib.Path(folder), colliders, wind, cloth)
+            for method, (here, (effects, colliders, wind, cloth)) in itertools.product(METHODS, zip(PARTS, scenes)):
+                entered = functions_entered(effects, pathlib.Path(folder), colliders, wind, cloth, method)
                 self.assertTrue(any("Contact<float>::" in name for name in entered), "nothing was touched")
+                self.assertTrue(any(METHODS[method] in name for name in entered))
                 for group in PARTS:
                     for part, marks in group.items():
                         for mark in marks:
                             seen = sorted(function for function in entered if re.search(mark, function))
-                            with self.subTest(part=part, mark=mark, scene=list(here)):
+                            with self.subTest(part=part, mark=mark, scene=list(here), method=method):
                                 self.assertEqual(bool(seen), group is here, seen)
 
     def test_contact_is_entered_only_where_there_are_colliders(self):
