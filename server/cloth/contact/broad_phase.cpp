@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth/contact/box_tree.h"
-#include "cloth/kernels/contact_kernels.h"
+#include "cloth/kernels/extent_kernels.h"
 #include "cloth/kernels/node_kernels.h"
 
 namespace weft {

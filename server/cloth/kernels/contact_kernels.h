@@ -5,10 +5,6 @@
 
 namespace weft::kernels {
 
-/// Smallest and largest of `rows` rows, column by column; `values` is the first row's start.
-void column_extents(const float* values, int rows, int stride, int cols, float* low, float* high);
-void column_extents(const double* values, int rows, int stride, int cols, double* low, double* high);
-
 /// The largest |own a + factor b|^2 of `count` nodes.
 double largest_square(Components<const float> a, Components<const float> b, float own, float factor,
                       std::size_t count);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cloth/kernels/extent_kernels.h"
+
 namespace weft {
 namespace {
 
@@ -22,6 +24,16 @@ kernels::AirZone placed_zone(const WindZone& zone) {
   }
   placed.one_over_edge = static_cast<float>(1 / zone.edge);
   return placed;
+}
+
+/// Around all that the zone changes, and as much again as its edge: for what the kernel rounds.
+Eigen::AlignedBox3f box_around(const kernels::AirZone& zone) {
+  Eigen::Vector3f half = Eigen::Vector3f::Constant(zone.radius + 2 / zone.one_over_edge);
+  for (int axis = 0; axis < 3; ++axis) {
+    half += zone.half[axis] * Eigen::Map<const Eigen::Vector3f>(zone.axes[axis]).cwiseAbs();
+  }
+  const Eigen::Map<const Eigen::Vector3f> centre(zone.centre);
+  return {centre - half, centre + half};
 }
 
 template <class Real>
@@ -46,14 +58,32 @@ const VectorField<float>& NodeAir::sample(const Air& air, const Particles<Real>&
   velocity_.x.fill(everywhere.x());
   velocity_.y.fill(everywhere.y());
   velocity_.z.fill(everywhere.z());
-  add_zones(air);
+  if (!air.wind().zones.empty()) add_zones(air);
   if (air.turbulent()) add_eddies(air, spacing, time);
   return velocity_;
 }
 
+Eigen::AlignedBox3f NodeAir::box_around_points() {
+  const Grid& grid = points_.grid();
+  low_.resize(static_cast<std::size_t>(grid.cols));
+  high_.resize(low_.size());
+  Eigen::AlignedBox3f box;
+  int axis = 0;
+  for (const Field<float>* field : {&points_.x, &points_.y, &points_.z}) {
+    kernels::column_extents(field->row(0), grid.rows, grid.stride, grid.cols, low_.data(), high_.data());
+    box.min()[axis] = *std::min_element(low_.begin(), low_.end());
+    box.max()[axis] = *std::max_element(high_.begin(), high_.end());
+    ++axis;
+  }
+  return box;
+}
+
 void NodeAir::add_zones(const Air& air) {
+  const Eigen::AlignedBox3f points = box_around_points();
   for (const WindZone& zone : air.wind().zones) {
-    kernels::blend_zone(placed_zone(zone), kernels::components(std::as_const(points_)), points_.grid().size(),
+    const kernels::AirZone placed = placed_zone(zone);
+    if (!box_around(placed).intersects(points)) continue;
+    kernels::blend_zone(placed, kernels::components(std::as_const(points_)), points_.grid().size(),
                         kernels::components(velocity_));
   }
 }

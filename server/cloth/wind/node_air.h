@@ -19,6 +19,8 @@ class NodeAir {
                                    double time, double ahead);
 
  private:
+  Eigen::AlignedBox3f box_around_points();
+  /// Of those that come near the nodes: the others would change no bit.
   void add_zones(const Air& air);
   /// Of turbulent air alone.
   void add_eddies(const Air& air, const Vec2& spacing, double time);
@@ -26,6 +28,7 @@ class NodeAir {
   VectorField<float> points_, velocity_;  ///< at all nodes
   VectorField<float> few_points_,
       few_velocity_;  ///< where eddies are evaluated, if not at all nodes; one row. Empty in calm air
+  std::vector<float> low_, high_;  ///< of the points' columns; empty without zones
 };
 
 }  // namespace weft

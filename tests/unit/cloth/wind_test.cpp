@@ -1,8 +1,10 @@
 // Gusts, turbulence and zones against the formulas they claim, and how a cloth's nodes get them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -289,6 +291,41 @@ TEST(NodeAir, ABallIsRoundAndLaterZonesLieOverEarlierOnes) {
   EXPECT_LT((get(air, 8, 12) - Vec3(0, 0, 3)).norm(), 1e-6);
   EXPECT_LT((get(air, 8, 13) - Vec3(2, 0, 0)).norm(), 1e-6);
   EXPECT_LT((get(air, 4, 12) - Vec3(2, 0, 0)).norm(), 1e-6) << "0.71 m off: in no box";
+}
+
+// A zone whose air is no number makes numbers of none of the air that it is blended with, however little:
+// from far it is not blended.
+TEST(NodeAir, ZonesFarFromAllNodesAreSkipped) {
+  const Particles<float> sheet = test::flat_sheet<float>(17, 17, {2, 2});
+  Wind wind{{1, 0, 0}, 2.0};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  wind.zones = {{SphereZone{0.5}, {3, 0, 0}, {none, 0, 0}, 0.1}};  // its edge ends 1.4 m from the sheet's
+  each_node(sheet.grid(), [&, air = air_on(sheet, wind)](int r, int c) {
+    EXPECT_EQ(get(air, r, c), Vec3(2, 0, 0)) << r << " " << c;
+  });
+  wind.zones[0].position = {1.5, 0, 0};
+  EXPECT_TRUE(std::isnan(get(air_on(sheet, wind), 8, 16).x()));
+}
+
+TEST(NodeAir, SkippedZonesWouldHaveChangedNoBit) {
+  // A zone on its way from the sheet's middle to 1 m beyond its rim, and the same sheet with a node that
+  // stays in the zone, for which it is blended everywhere.
+  const Particles<float> sheet = test::flat_sheet<float>(17, 17, {2, 2});
+  Particles<float> reaching = sheet;
+  WindZone zone;
+  zone.shape = BoxZone{{0.3, 0.2, 0.4}, Quaternion(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))};
+  zone.velocity = {0.1, 3, 0.7};
+  Wind wind{{1, 0, 0}, 2.0};
+  for (int step = 0; step < 200; ++step) {
+    zone.position = {0.01 * step, 0.1, 0.05};
+    wind.zones = {zone};
+    set(reaching.position, 0, 0, zone.position);
+    const VectorField<float> air = air_on(sheet, wind), blended = air_on(reaching, wind);
+    each_node(sheet.grid(), [&](int r, int c) {
+      if (r + c == 0) return;
+      EXPECT_EQ(get(air, r, c), get(blended, r, c)) << step << " " << r << " " << c;
+    });
+  }
 }
 
 TEST(NodeAir, IsEverywhereCloseToTheEddies) {
