@@ -19,11 +19,14 @@ struct EffectsStudy {
   int level = 0;
   double all = 0;                   ///< the scene as it is
   std::vector<EffectCost> effects;  ///< in the scene's order
-  double contact = 0;               ///< what the scene takes more with its colliders than without them
-  double rest = 0;                  ///< the scene without effects and colliders: springs, integrator, check
+  /// Gusts, turbulence and zones of the wind, friction: those that the scene has. They cost what they add to
+  /// the effects that feel the wind, and to contact.
+  std::vector<EffectCost> parts;
+  double contact = 0;  ///< what the scene takes more with its colliders than without them
+  double rest = 0;     ///< the scene without effects and colliders: springs, integrator, check
 };
 
-/// Steps the scene, the scene without each effect, that without colliders and that without all of these, in
+/// Steps the scene, the scene without each effect or part, that without colliders and that without all, in
 /// single precision and in turns: each frame begins from the full scene's whole state
 /// (Simulation::take_state) and is taken by all of them, in changing order, so that noise and the processor's
 /// moods meet all alike. Each figure is the mean of the middle half of the frames' differences.

@@ -21,6 +21,36 @@ TEST(Effects, AreTheScenesInItsOrder) {
   EXPECT_GT(study.all, 0);
   EXPECT_GT(study.rest, 0);
   EXPECT_EQ(study.contact, 0);  // no balls
+  EXPECT_TRUE(study.parts.empty());
+}
+
+// Gusts, turbulence, zones and friction have a line each where a scene has them, in this order.
+TEST(Effects, PartsAreThoseOfTheScene) {
+  const auto parts = [](const SimulationDescription& description) {
+    std::vector<std::string_view> names;
+    for (const EffectCost& part : study_effects(description, 3, 2, kNothing).parts)
+      names.push_back(part.name);
+    return names;
+  };
+  using Names = std::vector<std::string_view>;
+  SimulationDescription description = swing();
+  description.effects = {AerodynamicsEffect{}, GravityEffect{}};
+  description.wind.speed = 2;
+  EXPECT_EQ(parts(description), Names());
+  description.wind.turbulence.intensity = 0.2;
+  EXPECT_EQ(parts(description), Names{"turbulence"});
+  description.wind.gusts.intensity = 0.2;
+  description.wind.zones = {WindZone{}};
+  EXPECT_EQ(parts(description), (Names{"gusts", "turbulence", "wind zones"}));
+  description.wind = {};
+  description.balls = {BallDescription{}};
+  description.obstacles = {ObstacleDescription{PlaneDescription{}, {0, -3, 0}}};
+  EXPECT_EQ(parts(description), Names());
+  description.obstacles[0].friction = 0.3;
+  EXPECT_EQ(parts(description), Names{"friction"});
+  description.obstacles.clear();
+  description.effects.push_back(ClothContactEffect{});
+  EXPECT_EQ(parts(description), Names{"friction"});
 }
 
 TEST(Effects, ASceneWithoutAnyIsAllRest) {
@@ -51,10 +81,11 @@ TEST(Effects, OfAllPresetsAreMeasuredFromStatesThatGoOnToTheBit) {
 }
 
 TEST(Effects, TableHasALineEach) {
-  const std::string text = table({5, 2.0, {{"gravity", 0.5}}, 0.25, 1.25});
+  const std::string text = table({5, 2.0, {{"gravity", 0.5}}, {{"gusts", 0.125}}, 0.25, 1.25});
   EXPECT_EQ(text,
             "level 5                     ms/frame     share\n"
             "  gravity                     0.5000    25.0 %\n"
+            "  gusts                       0.1250     6.2 %\n"
             "  contact                     0.2500    12.5 %\n"
             "  springs, integrator         1.2500    62.5 %\n"
             "  all                         2.0000   100.0 %\n");
