@@ -73,7 +73,7 @@ std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t fr
 std::string welcome_text(std::string_view server_version, const Limits& limits) {
   return dump({{"op", "welcome"},
                {"protocol", kSubprotocol},
-               {"minor", 11},
+               {"minor", 12},
                {"server", "weft " + std::string(server_version)},
                {"caps", kCapabilities},
                {"limits",

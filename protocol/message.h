@@ -130,8 +130,9 @@ struct EffectTune {
 struct WindSet {
   Vector direction{};  ///< unit length after parsing
   double speed = 0;
-  std::optional<double> gusts = {};       ///< intensity; without it that stays
-  std::optional<double> turbulence = {};  ///< the same
+  std::optional<double> gusts = {};                          ///< intensity; without it that stays
+  std::optional<double> turbulence = {};                     ///< the same
+  std::optional<double> time_scale = {}, length_scale = {};  ///< of gusts, s, and turbulence, m; the same
 };
 struct WindZoneSet {
   std::uint32_t zone = 0;  ///< its place in the wind's zones

@@ -5,6 +5,8 @@ import {anglesOf, directionOf} from './wind_angles.js';
 const byId = (id) => document.getElementById(id);
 const kWindMs = 60;  // between two wind.set while a slider moves
 const kHoldMs = 600;  // what the viewer has set is not overwritten by what the server still says
+/** Sliders of how long gusts last and how large eddies are. */
+const kScales = {'wind-gust-time': {member: 'time_scale', unit: 's'}, 'wind-eddy-size': {member: 'length_scale', unit: 'm'}};
 
 /**
  * The controls. They show what the server says, and tell `actions` what the viewer wants; they change nothing by themselves.
@@ -16,7 +18,7 @@ const kHoldMs = 600;  // what the viewer has set is not overwritten by what the 
  * @property {() => void} reset
  * @property {(distance: number) => void} goTo
  * @property {(on: boolean) => void} setWireframe
- * @property {(wind: {direction: number[], speed: number, gusts: number, turbulence: number}) => void} setWind
+ * @property {(wind: {direction: number[], speed: number, gusts: number, turbulence: number, time_scale?: number, length_scale?: number}) => void} setWind
  * @property {() => void} addBall
  * @property {(ball: number) => void} removeBall
  * @property {(ball: number) => void} throwBall
@@ -79,7 +81,7 @@ export class Panel {
     byId('hand').setAttribute('aria-pressed', String(on));
   }
 
-  /** @param {{direction: number[], speed: number, gusts?: number, turbulence?: number}} wind @param {boolean} available whether the scene has an effect of wind */
+  /** @param {{direction: number[], speed: number, gusts?: number, turbulence?: number, time_scale?: number, length_scale?: number}} wind @param {boolean} available whether the scene has an effect of wind */
   setWind(wind, available) {
     this.windAvailable = available;
     byId('wind-absent').hidden = available;
@@ -94,6 +96,8 @@ export class Panel {
       byId('wind-tilt').value = String(tilt);
       byId('wind-gusts').value = String(wind.gusts ?? 0);
       byId('wind-eddies').value = String(wind.turbulence ?? 0);
+      // Told only where there are gusts, or eddies.
+      for (const [id, {member}] of Object.entries(kScales)) if (member in wind) byId(id).value = String(wind[member]);
       this.#showWind();
     }
   }
@@ -158,12 +162,15 @@ export class Panel {
 
   #wireWind() {
     let timer = null;
+    let scales = {};  // only what was moved: the scene's own may be beyond a slider, and is not told before there are any
     const send = () => {
       timer = null;
       const [speed, heading, tilt, gusts, turbulence] = this.#sliders();
-      this.actions.setWind({direction: directionOf(heading, tilt), speed, gusts, turbulence});
+      this.actions.setWind({direction: directionOf(heading, tilt), speed, gusts, turbulence, ...scales});
+      scales = {};
     };
-    byId('wind').addEventListener('input', () => {
+    byId('wind').addEventListener('input', ({target}) => {
+      if (target.id in kScales) scales[kScales[target.id].member] = Number(target.value);
       this.windHeldUntilMs = performance.now() + kHoldMs;
       this.#showWind();
       timer ??= setTimeout(send, kWindMs);
@@ -182,6 +189,7 @@ export class Panel {
     byId('wind-tilt-value').textContent = `${tilt}°`;
     byId('wind-gusts-value').textContent = `${Math.round(100 * gusts)} %`;
     byId('wind-eddies-value').textContent = `${Math.round(100 * eddies)} %`;
+    for (const [id, {unit}] of Object.entries(kScales)) byId(`${id}-value`).textContent = `${byId(id).value} ${unit}`;
   }
 
   #wireBalls() {

@@ -113,6 +113,8 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   changed.speed = wind.speed;
   if (wind.gusts) changed.gusts.intensity = *wind.gusts;
   if (wind.turbulence) changed.turbulence.intensity = *wind.turbulence;
+  if (wind.time_scale) changed.gusts.time_scale = *wind.time_scale;
+  if (wind.length_scale) changed.turbulence.length_scale = *wind.length_scale;
   simulation_.set_wind(changed);
   tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
   return json::object();

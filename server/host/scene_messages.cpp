@@ -111,8 +111,14 @@ const char* state_of(const Cloth<float>& cloth) {
 
 json wind_json(const Wind& wind) {
   json message{{"direction", vector_json(wind.direction)}, {"speed", wind.speed}};
-  if (wind.gusts.intensity > 0) message["gusts"] = wind.gusts.intensity;
-  if (wind.turbulence.intensity > 0) message["turbulence"] = wind.turbulence.intensity;
+  if (wind.gusts.intensity > 0) {
+    message["gusts"] = wind.gusts.intensity;
+    message["time_scale"] = wind.gusts.time_scale;
+  }
+  if (wind.turbulence.intensity > 0) {
+    message["turbulence"] = wind.turbulence.intensity;
+    message["length_scale"] = wind.turbulence.length_scale;
+  }
   for (const WindZone& zone : wind.zones) message["zones"].push_back(zone_json(zone));
   return message;
 }

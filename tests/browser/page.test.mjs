@@ -91,10 +91,16 @@ test('wind by the sliders', async () => {
   await page.fill('#wind-gusts', '0.4');
   await until(page, () => weft.stats.wind.gusts === 0.4 && weft.stats.wind.speed === 8);
   assert.equal(await page.textContent('#wind-gusts-value'), '40 %');
+  assert.equal(await page.inputValue('#wind-gust-time'), '3');  // the scene's own, the default
+  await page.fill('#wind-gust-time', '1.5');
+  await until(page, () => weft.stats.wind.time_scale === 1.5 && weft.stats.wind.gusts === 0.4);
+  assert.equal(await page.textContent('#wind-gust-time-value'), '1.5 s');
   await page.fill('#wind-gusts', '0');
   await page.fill('#wind-eddies', '0.6');
   await until(page, () => weft.stats.wind.gusts === undefined && weft.stats.wind.turbulence === 0.6);
   assert.equal(await page.textContent('#wind-eddies-value'), '60 %');
+  await page.fill('#wind-eddy-size', '0.2');
+  await until(page, () => weft.stats.wind.length_scale === 0.2 && weft.stats.wind.turbulence === 0.6);
   await page.fill('#wind-eddies', '0');
   await until(page, () => weft.stats.wind.turbulence === undefined);
   await page.fill('#wind-speed', '0');

@@ -145,6 +145,7 @@ test('each method sends its operation', async () => {
   await client.setWind([0, 0, -1], 3);
   await client.setWind([0, 0, -1], 3, { gusts: 0.25 });
   await client.setWind([0, 0, -1], 3, { turbulence: 0.5 });
+  await client.setWind([0, 0, -1], 3, { timeScale: 2, lengthScale: 0.2 });
   await client.setWindZone(1, [0, 0, -2]);
   await client.setQuality({ maxError: 0.01 });
   await client.setQuality({ maxMs: 2 });
@@ -175,7 +176,8 @@ test('each method sends its operation', async () => {
     { op: 'effect.set', effect: 'gravity', on: false },
     { op: 'effect.tune', effect: 'gravity', parameters: { acceleration: [0, -1.62, 0] } },
     { op: 'wind.set', direction: [0, 0, -1], speed: 3 }, { op: 'wind.set', direction: [0, 0, -1], speed: 3, gusts: 0.25 },
-    { op: 'wind.set', direction: [0, 0, -1], speed: 3, turbulence: 0.5 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3, turbulence: 0.5 },
+    { op: 'wind.set', direction: [0, 0, -1], speed: 3, time_scale: 2, length_scale: 0.2 }, { op: 'wind.zone.set', zone: 1, velocity: [0, 0, -2] }, { op: 'quality', max_error: 0.01 }, { op: 'quality', max_ms: 2 },
     { op: 'quality' }, { op: 'cost' }, { op: 'pause' }, { op: 'step', count: 2 }, { op: 'resume' }, { op: 'reset' },
     { op: 'scene.list' }, { op: 'ping' }, { op: 'scene.join', scene: 'curtain' }]);
   assert.deepEqual(server.received.map(({ id }) => id), sent.map((_, i) => i + 1), 'ids are counted');

@@ -190,6 +190,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.set_wind([0, 0, -1], 3)
             await scene.set_wind([0, 0, -1], 3, gusts=0.25)
             await scene.set_wind([0, 0, -1], 3, turbulence=0.5)
+            await scene.set_wind([0, 0, -1], 3, time_scale=2, length_scale=0.2)
             await scene.set_wind_zone(1, [0, 0, -2])
             await scene.set_quality(max_error=0.01)
             await scene.set_quality(max_ms=2)
@@ -225,6 +226,7 @@ class Client(unittest.IsolatedAsyncioTestCase):
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "gusts": 0.25},
             {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "turbulence": 0.5},
+            {"op": "wind.set", "direction": [0, 0, -1], "speed": 3, "time_scale": 2, "length_scale": 0.2},
             {"op": "wind.zone.set", "zone": 1, "velocity": [0, 0, -2]},
             {"op": "quality", "max_error": 0.01}, {"op": "quality", "max_ms": 2}, {"op": "quality"}, {"op": "cost"}, {"op": "pause"},
             {"op": "step", "count": 2}, {"op": "resume"}, {"op": "reset"}, {"op": "scene.list"}, {"op": "ping"},

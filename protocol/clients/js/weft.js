@@ -514,10 +514,10 @@ export class WeftClient {
 
   /**
    * @param {Vector} direction any length but zero @param {number} speed m/s
-   * @param {{gusts?: number, turbulence?: number}} [change] how strong gusts and eddies are, 0 to 1: their root mean square over the speed, of eddies in each component; without it as they were
+   * @param {{gusts?: number, turbulence?: number, timeScale?: number, lengthScale?: number}} [change] how strong gusts and eddies are, 0 to 1: their root mean square over the speed, of eddies in each component; how long gusts last, s, and how large eddies are, m; without it as they were
    */
-  setWind(direction, speed, { gusts, turbulence } = {}) {
-    return this.send('wind.set', { direction, speed, gusts, turbulence });
+  setWind(direction, speed, { gusts, turbulence, timeScale, lengthScale } = {}) {
+    return this.send('wind.set', { direction, speed, gusts, turbulence, time_scale: timeScale, length_scale: lengthScale });
   }
 
   /** How the air moves in one of the wind's zones. @param {number} zone its place in the wind's `zones` @param {Vector} velocity m/s */

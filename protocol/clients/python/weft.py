@@ -517,10 +517,12 @@ class Client:
         `tunable` has their names and ranges."""
         return await self.send("effect.tune", effect=effect, parameters=parameters)
 
-    async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None, turbulence: typing.Optional[float] = None) -> dict:
+    async def set_wind(self, direction, speed: float, *, gusts: typing.Optional[float] = None, turbulence: typing.Optional[float] = None,
+                       time_scale: typing.Optional[float] = None, length_scale: typing.Optional[float] = None) -> dict:
         """Direction of any length but zero; speed in m/s; gusts and turbulence from 0 to 1, their root mean square over the
-        speed, of turbulence in each component (None: as they were)."""
-        return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts, turbulence=turbulence)
+        speed, of turbulence in each component; time_scale of gusts in s, length_scale of turbulence in m (None: as they were)."""
+        return await self.send("wind.set", direction=direction, speed=speed, gusts=gusts, turbulence=turbulence,
+                               time_scale=time_scale, length_scale=length_scale)
 
     async def set_wind_zone(self, zone: int, velocity) -> dict:
         """How the air moves in one of the wind's zones, m/s; `zone` is its place in the wind's `zones`."""

@@ -19,7 +19,7 @@ TEST_F(Commands, TakeEffectInTheNextStep) {
 TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
   command(WindSet{{1, 0, 0}, 3.0, 0.25});
   EXPECT_EQ(other.last("event", "wind").at("wind"),
-            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"gusts", 0.25}}));
+            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"gusts", 0.25}, {"time_scale", 3.0}}));
   command(WindSet{{0, 0, -1}, 5.0});
   EXPECT_EQ(live.simulation().wind().gusts.intensity, 0.25);
   command(WindSet{{0, 0, -1}, 5.0, 0.0});
@@ -30,11 +30,24 @@ TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
 TEST_F(Commands, SoAreEddies) {
   command(WindSet{{1, 0, 0}, 3.0, {}, 0.5});
   EXPECT_EQ(other.last("event", "wind").at("wind"),
-            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"turbulence", 0.5}}));
+            json({{"direction", {1, 0, 0}}, {"speed", 3.0}, {"turbulence", 0.5}, {"length_scale", 0.5}}));
   command(WindSet{{0, 0, -1}, 5.0});
   EXPECT_EQ(live.simulation().wind().turbulence.intensity, 0.5);
   command(WindSet{{0, 0, -1}, 5.0, {}, 0.0});
   EXPECT_FALSE(other.last("event", "wind").at("wind").contains("turbulence"));
+}
+
+// How long gusts last and how large eddies are, too, whether there are any yet or not.
+TEST_F(Commands, SoAreTheScalesOfBoth) {
+  command(WindSet{.direction = {1, 0, 0}, .speed = 3.0, .time_scale = 1.5, .length_scale = 0.25});
+  EXPECT_EQ(other.last("event", "wind").at("wind"), json({{"direction", {1, 0, 0}}, {"speed", 3.0}}));
+  command(WindSet{{1, 0, 0}, 3.0, 0.25, 0.5});
+  EXPECT_EQ(other.last("event", "wind").at("wind"), json({{"direction", {1, 0, 0}},
+                                                          {"speed", 3.0},
+                                                          {"gusts", 0.25},
+                                                          {"time_scale", 1.5},
+                                                          {"turbulence", 0.5},
+                                                          {"length_scale", 0.25}}));
 }
 
 scene::Scene with_zones() {
