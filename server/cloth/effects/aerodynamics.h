@@ -3,7 +3,13 @@
 
 namespace weft {
 
-/// Drag and lift of every face from the relative velocity; see AerodynamicsEffect.
+/// Drag and lift of every face from the relative velocity; AerodynamicsEffect has the equation. Faces are
+/// flat plates, each in undisturbed air (Wejchert and Haumann, Animation Aerodynamics, 1991): none is in the
+/// lee of another. A plate across the flow has a coefficient of about 1.2 (Hoerner, Fluid-Dynamic Drag,
+/// 1965).
+///
+/// The implicit methods' systems have its damping and leave out how it turns with the faces, which is not
+/// symmetric and not positive definite: each iteration has the force of its own iterate.
 template <class Real>
 class Aerodynamics final : public Effect<Real> {
  public:

@@ -14,11 +14,12 @@ struct Grab {
   double max_force = 100;  ///< N, > 0; what the hand is pulled beyond it slips behind
 };
 
-/// The cloth's grabs: a damped spring between each hand and the mean of its patch, of at most max_force. The
-/// patch is a hat of 1/16 of the shorter side around the point, or of a cell where those are larger, so that
-/// its size does not hang on the level. The spring is so stiff that the whole cloth, hung from it, swings at
-/// kFrequency: it hangs g / kFrequency^2 = 2.5 cm below the hand whatever it weighs. Where an explicit
-/// substep does not bear the damping, it has less of it.
+/// The cloth's grabs, F = k (hand - x) - d v of the patch's mean x and v, as the mouse joints of rigid body
+/// engines are (Box2D): a damped spring between each hand and the mean of its patch, of at most max_force.
+/// The patch is a hat of 1/16 of the shorter side around the point, or of a cell where those are larger, so
+/// that its size does not hang on the level. The spring is so stiff that the whole cloth, hung from it,
+/// swings at kFrequency: it hangs g / kFrequency^2 = 2.5 cm below the hand whatever it weighs. Where an
+/// explicit substep does not bear the damping, it has less of it.
 template <class Real>
 class Grabs final : public Effect<Real> {
  public:

@@ -3,7 +3,8 @@
 
 namespace weft {
 
-/// InflationEffect. Each cell is the bilinear patch between its corners, so that on every node inside the
+/// InflationEffect, F = p A of every face, which follows it (Hibbitt, Some follower forces and load
+/// stiffness, 1979). Each cell is the bilinear patch between its corners, so that on every node inside the
 /// sheet the force is exactly p dV/dr, V being the volume between the sheet and whatever closes its rim:
 /// where the rim is held, the potential energy is -p V.
 ///

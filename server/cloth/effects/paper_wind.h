@@ -4,6 +4,10 @@
 namespace weft {
 
 /// Eq. 4, F = lambda N; see PaperWindEffect.
+///
+/// The implicit methods' systems have nothing of it: along the wind it hangs on no position, and how it turns
+/// with the cloth's normals is neither symmetric nor positive definite, and small beside the springs. Each
+/// iteration has the force of its own iterate.
 template <class Real>
 class PaperWind final : public Effect<Real> {
  public:

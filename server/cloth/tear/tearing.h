@@ -34,8 +34,9 @@ bool surely_holds(const Springs<Real>& springs, const VectorField<Real>& positio
                   const TearingEffect& tearing);
 
 /// The links that break in a step which leaves these loads; `torn` is what is cut already, or nullptr. Only
-/// such that bear more than their strength, and as few as the step can tell to: a break unloads a sheet as
-/// far as sound gets in a step, often all of it, while loads are known at its end alone.
+/// such that bear more than their strength (Terzopoulos and Fleischer, Modeling Inelastic Deformation, 1988,
+/// cut all of a net that do), and as few as the step can tell to, by rules of our own: a break unloads a
+/// sheet as far as sound gets in a step, often all of it, while loads are known at its end alone.
 ///  - At each tear's end, a face that has lost one edge, the link of the face that is loaded most: tears run.
 ///  - Any link beyond kOverload, which needs no tear's end beside it, if none before or after it on its
 ///    thread bears more.

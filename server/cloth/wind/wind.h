@@ -34,8 +34,9 @@ struct SphereZone {
 };
 
 /// Where the air moves otherwise: before a fan, in the lee of a wall. In the shape `velocity` is instead of
-/// the wind and its gusts; over `edge` outside of it that fades. Turbulence stays. Later zones lie over
-/// earlier ones.
+/// the wind and its gusts; over s = 0 to 1 edges outside of it that fades by 1 - 3 s^2 + 2 s^3. Turbulence
+/// stays. Later zones lie over earlier ones. Our own: flow primitives that add up (Wejchert and Haumann,
+/// Animation Aerodynamics, 1991) have no lee.
 struct WindZone {
   std::variant<BoxZone, SphereZone> shape;
   Vec3 position{0.0, 0.0, 0.0};  ///< of the centre, m
