@@ -81,11 +81,31 @@ struct Stepping {
 void PrintTo(const Stepping& stepping, std::ostream* out) { *out << stepping.name; }
 class SelfContact : public ::testing::TestWithParam<Stepping> {};
 
-INSTANTIATE_TEST_SUITE_P(Methods, SelfContact,
-                         ::testing::Values(Stepping{"bdf2", Bdf2Description{}},
-                                           Stepping{"backward_euler", BackwardEulerDescription{}},
-                                           Stepping{"xpbd", XpbdDescription{}}),
+constexpr Stepping kBdf2{"bdf2", Bdf2Description{}},
+    kBackwardEuler{"backward_euler", BackwardEulerDescription{}}, kXpbd{"xpbd", XpbdDescription{}},
+    kSymplecticEuler{"symplectic_euler", SymplecticEulerDescription{}};
+
+INSTANTIATE_TEST_SUITE_P(Methods, SelfContact, ::testing::Values(kBdf2, kBackwardEuler, kXpbd),
                          [](const auto& tested) { return tested.param.name; });
+
+class SelfContactFriction : public SelfContact {};
+INSTANTIATE_TEST_SUITE_P(Methods, SelfContactFriction,
+                         ::testing::Values(kBdf2, kBackwardEuler, kXpbd, kSymplecticEuler),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// By method and level. The finer one takes a minute, and so does symplectic Euler.
+class SelfContactWrung : public ::testing::TestWithParam<std::tuple<Stepping, int>> {};
+std::string method_and_level(const ::testing::TestParamInfo<std::tuple<Stepping, int>>& tested) {
+  return std::get<0>(tested.param).name + ("_L" + std::to_string(std::get<1>(tested.param)));
+}
+INSTANTIATE_TEST_SUITE_P(Methods, SelfContactWrung,
+                         ::testing::Combine(::testing::Values(kBdf2, kBackwardEuler, kXpbd),
+                                            ::testing::Values(4)),
+                         method_and_level);
+INSTANTIATE_TEST_SUITE_P(Nightly, SelfContactWrung,
+                         ::testing::Values(std::tuple(kBdf2, 5), std::tuple(kBackwardEuler, 5),
+                                           std::tuple(kXpbd, 5), std::tuple(kSymplecticEuler, 4)),
+                         method_and_level);
 
 }  // namespace
 
@@ -115,8 +135,8 @@ TEST(Intersections, AreCounted) {
   EXPECT_GT(count_intersections(folded), 0);
 }
 
-TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
-  SimulationDescription scene = dropped_on_edge(5, GetParam().description);
+/// Neither as it falls nor in the heap.
+void expect_no_crossing_in_a_heap(SimulationDescription scene) {
   Simulation<float> simulation(scene);
   EXPECT_EQ(intersections_in(simulation, 2), 0);
   EXPECT_TRUE(simulation.healthy());
@@ -125,6 +145,15 @@ TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
   scene.effects.pop_back();
   Simulation<float> without(scene);
   EXPECT_GT(intersections_in(without, 2), 0);
+}
+
+TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
+  expect_no_crossing_in_a_heap(dropped_on_edge(5, GetParam().description));
+}
+
+// At a level where its substeps are few.
+TEST(SelfContactSymplecticEuler, SquareDroppedOnItsEdgeNeverCrossesItself) {
+  expect_no_crossing_in_a_heap(dropped_on_edge(4, SymplecticEulerDescription{}));
 }
 
 // Nothing puts in energy: gravity has a potential, the floor stands still, folds and floor only take some. So
@@ -149,18 +178,19 @@ TEST(SelfContactSymplecticEuler, FoldsOfADroppedSquareBringInNoEnergy) {
   SimulationDescription scene = dropped_on_edge(4, SymplecticEulerDescription{});
   Simulation<float> simulation(scene);
   const Balance folds = balance(simulation, 120);
-  EXPECT_EQ(intersections(simulation), 0);
   scene.effects.pop_back();
   Simulation<float> without(scene);
   EXPECT_LT(folds.risen, balance(without, 120).risen + 0.01 * folds.lost);
 }
 
 // The hands put in energy, contact only takes some: less what they put in it never rises by more than 5 % of
-// that, be it for the net's sake (0.06 to 0.4 J of 15 were seen; where the net held the rope, all 10 that
-// were put in). Of XPBD only crossings are tested: its substeps do not hold a rope so tight, the net does,
-// and 39 J were brought in where 7 were put in.
-TEST_P(SelfContact, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) {
-  Simulation<float> simulation(wrung(4, GetParam().description));
+// that, be it for the net's sake (0.04 to 0.4 J of 15 were seen at level 4, 0.02 of 8 at level 5; where the
+// net held the rope, all 10 that were put in). Of XPBD and symplectic Euler only crossings are tested: their
+// substeps do not hold a rope so tight, the net does, and 125 J were brought in where 35 were put in, and 35
+// where 13 were.
+TEST_P(SelfContactWrung, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) {
+  const auto& [stepping, level] = GetParam();
+  Simulation<float> simulation(wrung(level, stepping.description));
   double put_in = 0, lowest = energy(simulation), most_risen = 0;
   int crossings = 0;
   Held before = held(simulation);
@@ -175,7 +205,9 @@ TEST_P(SelfContact, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) {
   }
   EXPECT_EQ(crossings, 0);
   EXPECT_TRUE(simulation.healthy());
-  if (std::holds_alternative<XpbdDescription>(GetParam().description)) return;
+  if (!std::holds_alternative<Bdf2Description>(stepping.description) &&
+      !std::holds_alternative<BackwardEulerDescription>(stepping.description))
+    return;
   EXPECT_GT(put_in, 5);
   EXPECT_LT(most_risen, 0.05 * put_in);
 }
@@ -229,7 +261,7 @@ TEST_P(SelfContact, SheetLiesOnOneThatTheFloorStops) {
 }
 
 // T14: rests where tan(angle) < friction, and else slides down with g (sin - friction cos).
-TEST_P(SelfContact, ClothRubsOnCloth) {
+TEST_P(SelfContactFriction, ClothRubsOnCloth) {
   const auto after_half_a_second = [](Simulation<float>& simulation) {
     for (int step = 0; step < 30; ++step) simulation.step();
     return simulation.centre(1);
