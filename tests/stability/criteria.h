@@ -63,6 +63,7 @@ class EnergyFall {
   double highest_last_ = -std::numeric_limits<double>::infinity();
 };
 
+inline constexpr double kJitter = 1e-5;  ///< of the size, what nodes at rest may shake by
 /// How nodes shake: the largest change of a node's move from one step to the next.
 class Jitter {
  public:

@@ -18,11 +18,10 @@ namespace {
 constexpr double kLosingTime = 30;    ///< s, in which what is not asleep yet loses energy
 constexpr int kLosingTimes = 10;      ///< after the last phase; then it is asleep
 constexpr double kRestSeconds = 0.5;  ///< at the end, watched for jitter
-constexpr double kJitter = 1e-5;      ///< of the size
-/// Under the address sanitizer, which is there for the code and not for the figures, a run ends after so many
+/// Under a sanitizer, which is there for the code and not for the figures, a run ends after so many
 /// substeps: more are the same ones again (S12 makes 7.3 million with symplectic Euler, S1a 4.8). The release
 /// build, whose affair the figures are, makes all.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef WEFT_SANITIZED
 constexpr long kMostSubsteps = 50000;
 #else
 constexpr long kMostSubsteps = std::numeric_limits<long>::max();

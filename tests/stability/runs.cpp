@@ -54,9 +54,11 @@ std::vector<HardRun> all_runs() {
   return runs;
 }
 
-std::vector<HardRun> ci_runs() {
+std::vector<HardRun> coarsest_runs() { return chosen(is_lowest); }
+
+std::vector<HardRun> finer_runs() {
   return chosen(
-      [](const HardRun& run) { return is_lowest(run) || (is_usual(run) && run.setup.level < kFinest); });
+      [](const HardRun& run) { return !is_lowest(run) && is_usual(run) && run.setup.level < kFinest; });
 }
 
 std::vector<HardRun> finest_runs() {

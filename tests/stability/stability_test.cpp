@@ -1,5 +1,5 @@
-// The hard cases (case.h), one test a run: Stability/* are CI's part, Finest/* level 6 in the same lengths,
-// Nightly/* all in full.
+// The hard cases (case.h), one test a run: Stability/* and Finer/*, level 5, are CI's part, Finest/* is level
+// 6 in the same lengths, Nightly/* all in full.
 #include <gtest/gtest.h>
 
 #include "open_failures.h"
@@ -30,7 +30,8 @@ TEST_P(HardCase, Survives) {
 
 std::string test_name(const ::testing::TestParamInfo<HardRun>& info) { return name_of(info.param); }
 
-INSTANTIATE_TEST_SUITE_P(Stability, HardCase, ::testing::ValuesIn(ci_runs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Stability, HardCase, ::testing::ValuesIn(coarsest_runs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Finer, HardCase, ::testing::ValuesIn(finer_runs()), test_name);
 INSTANTIATE_TEST_SUITE_P(Finest, HardCase, ::testing::ValuesIn(finest_runs()), test_name);
 INSTANTIATE_TEST_SUITE_P(Nightly, HardCase, ::testing::ValuesIn(all_runs()), test_name);
 
