@@ -86,6 +86,13 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   return reading;
 }
 
+Complaint guard_complaint(const Simulation<float>& simulation) {
+  for (const GuardEvent& event : simulation.guard_events()) {
+    if (event.fault != Fault::crowded) return "guard: " + describe(event, "cloth");
+  }
+  return {};
+}
+
 double energy_room(Method method) {
   constexpr double kRoom = 0.01, kModifiedEnergy = 19;
   return method == Method::explicit_fixed || method == Method::symplectic_euler ? kModifiedEnergy - 1 : kRoom;

@@ -1,6 +1,7 @@
 #pragma once
 /// What is read off a run after every step, and the criteria that every case shares:
-///  - every number is finite;
+///  - every number is finite, and no step had to be taken back by the step guard (step_guard.h), which would
+///    hide from all that follows that the method had failed;
 ///  - the energy stays below what was put in: the energy at the start and the work of gravity (both are in
 ///  the
 ///    total energy, which may only fall) and the input a case states, with 1 % of all that moves as room.
@@ -32,6 +33,10 @@ struct Reading {
 };
 /// `springs_count`: whether the energy holds the springs'.
 Reading read(const Simulation<float>& simulation, bool springs_count);
+
+/// What the step guard had to do in the last step: a step made again, a cloth frozen, a ball stopped. That
+/// more cloth lies in one place than is kept apart is told for information and no fault of the step.
+Complaint guard_complaint(const Simulation<float>& simulation);
 
 /// Largest energy that a run may have.
 struct EnergyBound {

@@ -215,6 +215,9 @@ std::optional<Failure> check(const SimulationDescription& scene) {
     simulation.step();
     const std::string when = " after step " + std::to_string(step + 1);
     if (!simulation.healthy()) return Failure{Failure::Kind::not_finite, "not finite" + when};
+    if (const Complaint guarded = guard_complaint(simulation)) {
+      return Failure{Failure::Kind::guard, *guarded + when};
+    }
     double put_in = commands.raised();
     if (setup.method == Method::symplectic_euler) put_in += work_of_rounding(simulation);
     bound.allowed += (1 + energy_room(setup.method)) * put_in;

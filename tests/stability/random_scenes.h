@@ -11,17 +11,17 @@ namespace weft::stability {
 SimulationDescription random_scene(std::uint64_t seed, int max_level);
 
 struct Failure {
-  enum class Kind { not_finite, energy };
+  enum class Kind { not_finite, guard, energy };
   Kind kind = Kind::not_finite;
   std::string what;  ///< with figures, for the reader
 };
 /// What is wrong with a scene, if anything is.
 using Check = std::function<std::optional<Failure>(const SimulationDescription&)>;
 
-/// Runs a scene for 2 s: something is not finite, or there is more energy than gravity, wind, bodies,
-/// pressure, a hand and changes of level by the paper's rules can have brought in. A cloth of several levels
-/// goes up and down through them, a level every 1 + seed % 16 steps; by its seed a hand pulls it, effects are
-/// switched off and on again.
+/// Runs a scene for 2 s: something is not finite, the step guard had to take a step back, or there is more
+/// energy than gravity, wind, bodies, pressure, a hand and changes of level by the paper's rules can have
+/// brought in. A cloth of several levels goes up and down through them, a level every 1 + seed % 16 steps; by
+/// its seed a hand pulls it, effects are switched off and on again.
 std::optional<Failure> check(const SimulationDescription& scene);
 
 /// The smallest scene found with the same kind of failure, by taking things away from one that has it: balls,
