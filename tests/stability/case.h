@@ -46,10 +46,16 @@ struct Expectation {
   double input = 0;                 ///< J, work that wind and moving bodies may do on the cloth
   double stretch = 0.05;            ///< largest extension of a structural spring, relative
   double stretch_from = 1;          ///< s, of the last phase: from then on it is held to it
+  double excess = 0;                ///< beside `stretch`, what XPBD is known to leave (xpbd_excess)
   double penetration = 1e-5;        ///< m, deepest that a node may be in a solid at the end of a step
   double penetration_from = 0;      ///< s, of the case: from then on
   bool rests = true;                ///< falls asleep after it (criteria.h)
   std::optional<double> top_speed;  ///< m/s, of any node, from penetration_from on
+
+  /// A method whose known excess is not small beside the limit does not claim it: it is held to both
+  /// together, and where it is beyond the limit the verdict says so.
+  bool claims_stretch() const { return excess <= 0.5 * stretch; }
+  double held_to() const { return claims_stretch() ? stretch : stretch + excess; }
 };
 
 /// Called before the first step and after every one with the time since the start, s.

@@ -7,7 +7,9 @@ namespace weft::stability {
 enum class Verdict {
   pass,
   fail,
-  limit,  ///< an explicit method beyond the steps it has: expected, recorded
+  limit,      ///< an explicit method beyond the steps it has: expected, recorded
+  stretches,  ///< all else holds, but springs are longer than the case allows: XPBD where it does not claim
+              ///< it
 };
 const char* name_of(Verdict verdict);
 
@@ -15,6 +17,8 @@ struct Result {
   Verdict verdict = Verdict::pass;
   std::vector<std::string> complaints;  ///< the first of each kind
   double stretch = 0;                   ///< largest from the stated time on
+  double stretch_limit = 0;             ///< what the case allows it to be
+  double worst_stretch = 0;             ///< largest of all steps
   double energy_rise = 0;               ///< largest energy above the start's, as a share of what is allowed
   double penetration = 0;               ///< m, deepest from the stated time on
   int guard_events = 0;                 ///< how often the step guard stepped in

@@ -12,7 +12,8 @@ namespace weft::stability {
 struct Row {
   std::string name, method, verdict, why;
   int level = 0, hz = 0, guard_events = 0;
-  double stretch = 0, energy_rise = 0, penetration = 0, rest_seconds = 0, milliseconds = 0;
+  double stretch = 0, stretch_limit = 0, worst_stretch = 0, energy_rise = 0, penetration = 0,
+         rest_seconds = 0, milliseconds = 0;
 };
 Row row_of(const Case& hard_case, const Setup& setup, const Result& result);
 
