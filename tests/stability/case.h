@@ -45,12 +45,13 @@ struct Phase {
 struct Expectation {
   double input = 0;                 ///< J, work that wind and moving bodies may do on the cloth
   double stretch = 0.05;            ///< largest extension of a structural spring, relative
+  double stretch_least = 0;         ///< and what the largest is at least: with less the sheet is too stiff
   double stretch_from = 1;          ///< s, of the last phase: from then on it is held to it
   double excess = 0;                ///< beside `stretch`, what XPBD is known to leave (xpbd_excess)
   double penetration = 1e-5;        ///< m, deepest that a node may be in a solid at the end of a step
   double penetration_from = 0;      ///< s, of the case: from then on
   bool rests = true;                ///< falls asleep after it (criteria.h)
-  std::optional<double> top_speed;  ///< m/s, of any node, from penetration_from on
+  std::optional<double> top_speed;  ///< m/s, of any node, from the first step on
 
   /// A method whose known excess is not small beside the limit does not claim it: it is held to both
   /// together, and where it is beyond the limit the verdict says so.
@@ -69,6 +70,7 @@ struct Case {
   std::vector<Phase> phases;
   std::vector<int> levels{4, 5, 6};
   double nightly_seconds = 0;  ///< of the last phase, in the nightly mode; 0: as in the phase
+  long nightly_steps = 0;      ///< the same in steps, whatever their rate
   /// Cases that symplectic Euler does not claim, its substeps chosen for springs that are not crushed, or so
   /// many that their rounding shakes the sheet: a failure is its limit.
   bool beyond_explicit = false;

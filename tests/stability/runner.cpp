@@ -55,6 +55,10 @@ class Run {
   Result result() {
     if (case_.watch) watch_ = case_.watch(setup_);
     for (std::size_t i = 0; i < case_.phases.size() && goes_on(); ++i) run_phase(i);
+    if (goes_on() && result_.stretch < expect_.stretch_least) {
+      complain("stiff: stretch " + number(result_.stretch) + "; at least " + number(expect_.stretch_least),
+               time_);
+    }
     if (goes_on() && expect_.rests) come_to_rest();
     if (goes_on() && case_.ending) complain_once(case_.ending(*simulation_, setup_));
     result_.cut_short = finite_ && !goes_on();
@@ -91,13 +95,18 @@ class Run {
     simulation_ = std::move(next);
     bound_ = energy_bound(*simulation_, setup_, expect_.input);
     if (watch_ && index == 0) complain_once(watch_(*simulation_, 0));
-    const double seconds =
-        last && nightly_ && case_.nightly_seconds > 0 ? case_.nightly_seconds : phase.seconds;
-    const auto steps = std::lround(seconds * setup_.hz);
+    const long steps = last && nightly_ ? nightly_steps() : std::lround(phase.seconds * setup_.hz);
     for (long step = 0; step < steps && goes_on(); ++step) {
       make_step();
       judge(static_cast<double>(step + 1) / setup_.hz, last);
     }
+  }
+
+  /// Of the last phase.
+  long nightly_steps() const {
+    if (case_.nightly_steps > 0) return case_.nightly_steps;
+    const double seconds = case_.nightly_seconds > 0 ? case_.nightly_seconds : case_.phases.back().seconds;
+    return std::lround(seconds * setup_.hz);
   }
 
   void make_step() {
@@ -171,9 +180,9 @@ class Run {
         complain("penetration " + number(now.penetration) + " m; at most " + number(expect_.penetration),
                  time_);
       }
-      if (expect_.top_speed && now.speed > *expect_.top_speed) {
-        complain("speed " + number(now.speed) + " m/s; at most " + number(*expect_.top_speed), time_);
-      }
+    }
+    if (expect_.top_speed && now.speed > *expect_.top_speed) {
+      complain("speed " + number(now.speed) + " m/s; at most " + number(*expect_.top_speed), time_);
     }
     if (watch_) complain_once(watch_(*simulation_, time_));
   }

@@ -23,7 +23,7 @@ bool is_lowest(const HardRun& run) { return run.setup.level == run.hard_case->le
 /// The default integrator and XPBD, as a scene is stepped, but for cases of a day's length or of seconds of
 /// frames at level 6.
 bool is_usual(const HardRun& run) {
-  static const std::set<std::string> kSlow{"S13b", "S14", "S15"};
+  static const std::set<std::string> kSlow{"S13b", "S14a", "S14b", "S15"};
   const bool chosen = run.setup.method == Method::bdf2 || run.setup.method == Method::xpbd;
   return chosen && run.setup.hz == 60 && !kSlow.contains(run.hard_case->name);
 }
