@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "fixtures.h"
+#include "rig.h"
 
 namespace weft {
 namespace {
@@ -48,6 +48,19 @@ TEST(Spring, CoincidentEndsHaveNoDirectionToPushIn) {
   EXPECT_EQ(spring_force(Vec3::Zero(), 1.0, 10.0), Vec3(0, 0, 0));
   EXPECT_EQ(spring_stiffness(Vec3::Zero(), 1.0, 10.0), Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   EXPECT_DOUBLE_EQ(spring_energy(Vec3::Zero(), 2.0, 10.0), 20.0);  // 1/2 * 10 * 2^2
+}
+
+TEST(Spring, OfRestLengthZeroIsLinearEvenWhereItsEndsMeet) {
+  // E = k d^2 / 2, so that F = -k d and K = k I, whatever the direction.
+  const double k = 10;
+  const Vec3 d(3, 4, 12);  // 13 m
+  EXPECT_LT((spring_force(d, 0.0, k) + k * d).norm(), 1e-13);
+  EXPECT_DOUBLE_EQ(spring_energy(d, 0.0, k), 845.0);  // 10 * 13^2 / 2
+  EXPECT_LT((spring_stiffness(d, 0.0, k) - k * Eigen::Matrix3d::Identity()).norm(), 1e-13);
+  // At d = 0 there is no direction left; what is kept of it is finite, and the force right.
+  EXPECT_EQ(spring_force(Vec3::Zero(), 0.0, k), Vec3(0, 0, 0));
+  EXPECT_EQ(spring_energy(Vec3::Zero(), 0.0, k), 0.0);
+  EXPECT_TRUE(spring_stiffness(Vec3::Zero(), 0.0, k).allFinite());
 }
 
 TEST(Spring, ForceIsMinusTheGradientOfTheEnergyAndStiffnessMinusThatOfTheForce) {
@@ -322,6 +335,50 @@ TYPED_TEST(SheetForces, AreFiniteForCoincidentNodes) {
   springs.add_forces(pair.position, force);
   each_node(pair.grid(), [&](int r, int c) { EXPECT_TRUE(get(force, r, c).allFinite()) << r << ", " << c; });
   EXPECT_TRUE(std::isfinite(springs.energy(pair.position)));
+}
+
+// A sheet of no height, by the paper's rules: rest length zero from row to row.
+TYPED_TEST(SheetForces, OfRestLengthZeroAreLinear) {
+  const double k = 5000, apart = 0.25, tolerance = 64 * double(std::numeric_limits<TypeParam>::epsilon());
+  Particles<TypeParam> sheet = flat_sheet<TypeParam>(9, 9, {2, 2});
+  const Springs<TypeParam> springs(stiffnesses(k, 0, 0), Discretization::paper, {2, 0}, sheet.grid());
+  VectorField<TypeParam> force(sheet.grid());
+  springs.add_forces(sheet.position, force);
+  // k d down at the upper edge, up at the lower one; between them two springs pull alike. Every other spring
+  // is at its rest length.
+  each_node(sheet.grid(), [&](int r, int c) {
+    const double up = r == 0 ? -k * apart : r == 8 ? k * apart : 0;
+    EXPECT_LT((get(force, r, c) - Vec3(0, up, 0)).norm(), tolerance * k * apart) << r << ", " << c;
+  });
+  EXPECT_NEAR(springs.energy(sheet.position), 8 * 9 * k * apart * apart / 2, tolerance * 1e5);
+
+  each_node(sheet.grid(), [&](int r, int c) { set(sheet.position, r, c, sheet.position_at(0, c)); });
+  force.fill(TypeParam(0));
+  springs.add_forces(sheet.position, force);  // all rows in one: nothing pulls
+  each_node(sheet.grid(), [&](int r, int c) { EXPECT_EQ(get(force, r, c).y(), 0) << r << ", " << c; });
+  EXPECT_NEAR(springs.energy(sheet.position), 0, tolerance);
+}
+
+// The stiffness too: every integrator steps it, apart and with all rows in one, without a division by zero.
+TYPED_TEST(SheetForces, OfRestLengthZeroAreStepped) {
+  for (const IntegratorDescription& stepping :
+       {IntegratorDescription(SymplecticEulerDescription{}), IntegratorDescription(XpbdDescription{}),
+        IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {
+    for (const double height : {2.0, 0.0}) {
+      Particles<TypeParam> sheet = flat_sheet<TypeParam>(9, 9, {2, height});
+      test::share_mass(sheet, 0.4, Discretization::paper);
+      test::Rig<TypeParam> rig(std::move(sheet), {2, 0}, stiffnesses(5000, 500, 50), Discretization::paper,
+                               {}, stepping);
+      for (int step = 0; step < 10; ++step) rig.advance(step * test::kFrame, test::kFrame);
+      each_node(rig.particles.grid(), [&](int r, int c) {
+        EXPECT_TRUE(rig.particles.position_at(r, c).allFinite())
+            << stepping.index() << ": " << r << ", " << c;
+        EXPECT_TRUE(rig.particles.velocity_at(r, c).allFinite())
+            << stepping.index() << ": " << r << ", " << c;
+      });
+      EXPECT_TRUE(std::isfinite(rig.springs.energy(rig.particles.position))) << stepping.index();
+    }
+  }
 }
 
 TEST(Springs, ForceOnASheetIsMinusTheGradientOfItsEnergy) {
