@@ -55,7 +55,7 @@ struct Expectation {
 
   /// A method whose known excess is not small beside the limit does not claim it: it is held to both
   /// together, and where it is beyond the limit the verdict says so.
-  bool claims_stretch() const { return excess <= 0.5 * stretch; }
+  bool claims_stretch() const { return excess <= 0.1 * stretch; }
   double held_to() const { return claims_stretch() ? stretch : stretch + excess; }
 };
 
