@@ -95,7 +95,7 @@ void StepGuard<Real>::amend(Particles<Real>& particles) {
   if (finding.fault == Fault::none) {
     keep(particles, finding.speed);
   } else {
-    restore(particles);
+    repair(particles);
   }
 }
 

@@ -286,6 +286,23 @@ TEST(StepGuard, ALevelChangeBeginsFromAGoodState) {
       test::same_bits(spoilt.cloths()[0].particles().position, plain.cloths()[0].particles().position));
 }
 
+TEST(StepGuard, WhatContactPutsInAfterAStepIsPutBackAndTold) {
+  Simulation<float> spoilt(hung_scene()), plain(hung_scene());
+  run(spoilt, 5);
+  run(plain, 5);
+  Cloth<float>& cloth = spoilt.cloths()[0];
+  cloth.particles().velocity.x.at(7, 9) = kNaN<float>;
+  cloth.moved_from_outside();
+  const Particles<float>&back = cloth.particles(), &good = plain.cloths()[0].particles();
+  EXPECT_TRUE(test::same_bits(back.position, good.position));
+  EXPECT_TRUE(test::same_bits(back.velocity, good.velocity));
+  spoilt.step();
+  ASSERT_EQ(spoilt.guard_events().size(), 1U);
+  EXPECT_EQ(spoilt.guard_events()[0].action, Action::redone);
+  EXPECT_EQ(spoilt.guard_events()[0].fault, Fault::not_finite);
+  EXPECT_EQ(spoilt.guard_events()[0].rung, Rung::own);
+}
+
 TEST(StepGuard, AFrozenClothIsTriedAtOnceAtAnotherLevel) {
   Simulation<float> simulation(hung_scene());
   bool faulty = true;
