@@ -112,6 +112,7 @@ std::vector<Case> long_cases();      ///< S14 to S16
 std::vector<Case> mesh_cases();      ///< S41
 std::vector<Case> body_cases();      ///< S50
 std::vector<Case> effect_cases();    ///< S42, S43, S46
+std::vector<Case> contact_cases();   ///< S51
 std::vector<Case> all_cases();
 
 }  // namespace weft::stability

@@ -2,6 +2,7 @@
 
 #include "fixtures.h"
 #include "folding_scenes.h"
+#include "held.h"
 #include "intersections.h"
 
 namespace weft::test {
@@ -45,33 +46,6 @@ Balance balance(Simulation<float>& simulation, int steps) {
   }
   result.lost = start - lowest;
   return result;
-}
-
-/// Where a cloth is held, and the force, N, by which its springs and weight pull there.
-struct Held {
-  std::vector<Vec3> position, force;
-};
-Held held(const Simulation<float>& simulation) {
-  const Cloth<float>& cloth = simulation.cloths()[0];
-  const Particles<float>& particles = cloth.particles();
-  VectorField<float> force(particles.grid());
-  cloth.springs().add_forces(particles.position, force);
-  Held result;
-  each_node(particles.grid(), [&](int r, int c) {
-    if (particles.inverse_mass.at(r, c) != 0) return;
-    result.position.push_back(particles.position_at(r, c));
-    result.force.push_back(get(force, r, c) + double(particles.mass.at(r, c)) * standard_gravity());
-  });
-  return result;
-}
-
-/// J, that who holds the cloth puts in from one state to another: force times way, by the trapezoidal rule.
-double work(const Held& from, const Held& to) {
-  double sum = 0;
-  for (std::size_t i = 0; i < from.position.size(); ++i) {
-    sum -= (from.force[i] + to.force[i]).dot(to.position[i] - from.position[i]) / 2;
-  }
-  return sum;
 }
 
 struct Stepping {
@@ -193,10 +167,10 @@ TEST_P(SelfContactWrung, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) 
   Simulation<float> simulation(wrung(level, stepping.description));
   double put_in = 0, lowest = energy(simulation), most_risen = 0;
   int crossings = 0;
-  Held before = held(simulation);
+  Held before = Held::of(simulation.cloths()[0]);
   for (int step = 1; step <= 132; ++step) {
     simulation.step();
-    const Held now = held(simulation);
+    const Held now = Held::of(simulation.cloths()[0]);
     put_in += work(before, now);
     before = now;
     lowest = std::min(lowest, energy(simulation) - put_in);
