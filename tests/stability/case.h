@@ -113,6 +113,7 @@ std::vector<Case> mesh_cases();      ///< S41
 std::vector<Case> body_cases();      ///< S50
 std::vector<Case> effect_cases();    ///< S42, S43, S46
 std::vector<Case> contact_cases();   ///< S51
+std::vector<Case> tunnel_cases();    ///< S52 to S54
 std::vector<Case> all_cases();
 
 }  // namespace weft::stability
