@@ -88,7 +88,7 @@ double xpbd_excess(const SimulationDescription& scene, const Setup& setup, doubl
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   for (const auto& theme : {material_cases, shape_cases, ball_cases, level_cases, long_cases, mesh_cases,
-                            body_cases, effect_cases, contact_cases, tunnel_cases}) {
+                            body_cases, effect_cases, contact_cases, tunnel_cases, driven_cases}) {
     for (Case& each : theme()) all.push_back(std::move(each));
   }
   return all;

@@ -109,11 +109,12 @@ std::vector<Case> shape_cases();     ///< hopeless shapes and shocks: S6, S7, S1
 std::vector<Case> ball_cases();      ///< S8, S10, S20, S44
 std::vector<Case> level_cases();     ///< S11
 std::vector<Case> long_cases();      ///< S14 to S16
-std::vector<Case> mesh_cases();      ///< S41
+std::vector<Case> mesh_cases();      ///< S41, S55
 std::vector<Case> body_cases();      ///< S50
 std::vector<Case> effect_cases();    ///< S42, S43, S46
 std::vector<Case> contact_cases();   ///< S51
 std::vector<Case> tunnel_cases();    ///< S52 to S54
+std::vector<Case> driven_cases();    ///< S56 to S60
 std::vector<Case> all_cases();
 
 }  // namespace weft::stability
