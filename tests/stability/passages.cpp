@@ -16,8 +16,8 @@ struct Way {
   Vec3 at(double along) const { return from + along / length() * (to - from); }
 };
 
-/// Where a way enters a shape, m along it; none if it begins inside or stays less than kDeep.
-std::optional<double> entry(const PlacedShape& shape, const Way& way) {
+/// Where a way enters a shape, m along it; none if it begins inside or comes less than `deep` in, m.
+std::optional<double> entry(const PlacedShape& shape, const Way& way, double deep = kDeep) {
   constexpr double kStep = 1e-4;  // m, at least
   const double length = way.length();
   std::optional<double> entered;
@@ -26,7 +26,7 @@ std::optional<double> entry(const PlacedShape& shape, const Way& way) {
     const double distance = shape.surface(way.at(along)).distance;
     if (distance < 0 && along == 0) return {};
     if (distance < 0 && !entered) entered = along;
-    if (distance < -kDeep) return entered;
+    if (distance < -deep) return entered;
     along += std::max(std::abs(distance), kStep);  // the surface is as far at least
   }
   return {};
@@ -74,6 +74,8 @@ bool passes(const Solid& solid, const Drawn& node, const Vec3& to, double farthe
   // What springs draw in that would have flown past meets it somewhere on its way.
   const Way& meets = flies_in ? flight : way;
   if (!is_in_shadow(shape, to, meets.to - meets.from)) return false;
+  const bool unnoticed = (to - flight.to).norm() < outer_radius(shape.shape) / 4;
+  if (unnoticed && entry(shape, way, inner_radius(shape.shape) / 2)) return true;
   const double until = flies_in.value_or(*entered);
   const Vec3 met = meets.at(until);
   const double time = (1 - until / meets.length()) * step;
