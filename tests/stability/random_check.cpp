@@ -29,8 +29,7 @@ double work_of_force(double force, double mass, double speed) {
 }
 
 /// What the body's motion and its start within the cloth bring, J.
-double work_of_body(const SimulationDescription& scene, double radius, double fastest) {
-  const ClothDescription& cloth = scene.cloths[0];
+double work_of_body(const ClothDescription& cloth, double radius, double fastest) {
   const Material& material = cloth.material;
   const double area = cloth.size.x() * cloth.size.y(), mass = material.density * area;
   const Grid grid = cloth.base_cells.at(cloth.max_level);
@@ -50,10 +49,10 @@ double fastest_of(const std::vector<Point>& path, Distance distance) {
   return fastest;
 }
 
-double work_of_ball(const SimulationDescription& scene, const BallDescription& ball) {
+double work_of_ball(const ClothDescription& cloth, const BallDescription& ball) {
   const double on_path = fastest_of(
       ball.path, [](const Waypoint& a, const Waypoint& b) { return (b.position - a.position).norm(); });
-  return work_of_body(scene, ball.radius, std::max(ball.velocity.norm(), on_path));
+  return work_of_body(cloth, ball.radius, std::max(ball.velocity.norm(), on_path));
 }
 
 /// Of the smallest ball around its centre that holds it, m; a plane's none: it stands, and not in the cloth.
@@ -64,27 +63,29 @@ struct OuterRadius {
   double operator()(const MeshDescription& mesh) const { return mesh.surface->outer_radius(); }
 };
 
-double work_of_obstacle(const SimulationDescription& scene, const ObstacleDescription& obstacle) {
+double work_of_obstacle(const ClothDescription& cloth, const ObstacleDescription& obstacle) {
   const double radius = std::visit(OuterRadius{}, obstacle.shape);
   const double fastest = fastest_of(obstacle.path, [=](const PoseWaypoint& a, const PoseWaypoint& b) {
     return (b.pose.position - a.pose.position).norm() +
            radius * a.pose.orientation.angularDistance(b.pose.orientation);
   });
-  if (!obstacle.body) return work_of_body(scene, radius, fastest);
+  if (!obstacle.body) return work_of_body(cloth, radius, fastest);
   // The cloth may throw it back at twice the speed of any of its points.
   const double thrown = obstacle.body->velocity.norm() + radius * obstacle.body->spin.norm();
-  return work_of_body(scene, radius, std::max(fastest, thrown));
+  return work_of_body(cloth, radius, std::max(fastest, thrown));
 }
 
 /// Of the wind's speed; gusts and eddies are of a normal distribution, in three components.
 double strongest_wind(const Wind& wind) {
-  return wind.speed * (1 + 5 * (wind.gusts.intensity + std::sqrt(3.0) * wind.turbulence.intensity));
+  const double eddies = 5 * std::sqrt(3.0) * wind.turbulence.intensity * wind.speed;
+  double strongest = wind.speed * (1 + 5 * wind.gusts.intensity);
+  for (const WindZone& zone : wind.zones) strongest = std::max(strongest, zone.velocity.norm());
+  return strongest + eddies;
 }
 
-/// Upper bound of what wind, bodies, pressure and the hand can do on the cloth in the time, J. Generous: it
-/// parts what is bounded from what runs away.
-double input(const SimulationDescription& scene) {
-  const ClothDescription& cloth = scene.cloths[0];
+/// Upper bound of what wind, bodies and pressure can do on the cloth in the time, J. Generous: it parts what
+/// is bounded from what runs away.
+double input_to(const ClothDescription& cloth, const SimulationDescription& scene) {
   const double area = cloth.size.x() * cloth.size.y(), mass = cloth.material.density * area;
   const Grid grid = cloth.base_cells.at(cloth.max_level);
   const double speed = cloth.velocity.norm(), wind = strongest_wind(scene.wind);
@@ -106,10 +107,18 @@ double input(const SimulationDescription& scene) {
       work += mass * apart * apart / 2;
     }
   }
-  for (const BallDescription& each : scene.balls) work += work_of_ball(scene, each);
-  for (const ObstacleDescription& each : scene.obstacles) work += work_of_obstacle(scene, each);
+  for (const BallDescription& each : scene.balls) work += work_of_ball(cloth, each);
+  for (const ObstacleDescription& each : scene.obstacles) work += work_of_obstacle(cloth, each);
+  return work;
+}
+
+/// The same of all cloths, with what the hand does on the first.
+double input(const SimulationDescription& scene) {
+  double work = 0;
+  for (const ClothDescription& each : scene.cloths) work += input_to(each, scene);
   // What it holds goes with it, and may be thrown the sheet's length past it.
-  if (const auto hand = hand_of(scene)) work += hand->force * 2 * (hand->way.norm() + cloth.size.norm());
+  if (const auto hand = hand_of(scene))
+    work += hand->force * 2 * (hand->way.norm() + scene.cloths[0].size.norm());
   return work;
 }
 
@@ -117,16 +126,18 @@ double input(const SimulationDescription& scene) {
 /// up to half a unit of its last place, evenly spread, which has the variance unit^2 / 12: of so much at
 /// either end a spring of stiffness k gets k unit^2 / 12 on average, and nothing takes it away.
 double work_of_rounding(const Simulation<float>& simulation) {
-  const Cloth<float>& cloth = simulation.cloths()[0];
-  const Grid& grid = cloth.particles().grid();
-  double farthest = 0, stiffness = 0;  // N/m, of all springs
+  double farthest = 0, stiffness = 0;  // N/m, of all springs, as often as there are substeps
   for (const Vec3& node : positions(simulation)) farthest = std::max(farthest, node.cwiseAbs().maxCoeff());
-  for (const SpringFamily& family : cloth.springs().families()) {
-    const int springs = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
-    stiffness += springs * family.stiffness * family.limit.stiffening;
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
+    const Cloth<float>& cloth = simulation.cloths()[i];
+    const Grid& grid = cloth.particles().grid();
+    for (const SpringFamily& family : cloth.springs().families()) {
+      const int springs = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
+      stiffness += simulation.report(i).substeps * springs * family.stiffness * family.limit.stiffening;
+    }
   }
   const double unit = std::numeric_limits<float>::epsilon() * farthest;
-  return simulation.report(0).substeps * stiffness * unit * unit / 12;
+  return stiffness * unit * unit / 12;
 }
 
 /// What is done to a scene while it runs, by its seed.

@@ -83,20 +83,20 @@ Implicit draw_implicit(Draw& draw) {
 }
 
 /// Substeps that symplectic Euler would take at the finest level, its drag aside.
-int explicit_substeps(const SimulationDescription& scene) {
-  const ClothDescription& cloth = scene.cloths[0];
+int explicit_substeps(const ClothDescription& cloth, double time_step) {
   const Grid grid = cloth.base_cells.at(cloth.max_level);
   Field<float> mass(grid);
   mass_distribution(cloth.material.density * cloth.size.x() * cloth.size.y(), cloth.discretization, mass);
   const Springs<float> springs(cloth.material, cloth.discretization, cloth.size, grid);
-  return stable_substeps(springs.max_squared_frequency(mass), 0, scene.time_step, 0.9);
+  return stable_substeps(springs.max_squared_frequency(mass), 0, time_step, 0.9);
 }
 
+constexpr int kMostExplicit = 300;  ///< substeps
+
 IntegratorDescription draw_integrator(Draw& draw, const SimulationDescription& scene) {
-  constexpr int kMostSubsteps = 300;
   switch (draw.integer(0, 3)) {
     case 0:
-      if (explicit_substeps(scene) <= kMostSubsteps)
+      if (explicit_substeps(scene.cloths[0], scene.time_step) <= kMostExplicit)
         return SymplecticEulerDescription{0, draw.between(0.3, 0.9)};
       [[fallthrough]];
     case 1:
@@ -106,6 +106,22 @@ IntegratorDescription draw_integrator(Draw& draw, const SimulationDescription& s
     default:
       return draw_implicit<Bdf2Description>(draw);
   }
+}
+
+/// Another cloth; where symplectic Euler would take too many substeps for it, of the first one's make.
+ClothDescription draw_other(Draw& draw, int max_level, const SimulationDescription& scene) {
+  const ClothDescription& first = scene.cloths[0];
+  ClothDescription other = draw_cloth(draw, max_level);
+  const bool is_explicit = std::holds_alternative<SymplecticEulerDescription>(scene.integrator);
+  if (is_explicit && explicit_substeps(other, scene.time_step) > kMostExplicit) {
+    other.size = first.size;
+    other.material = first.material;
+    other.base_cells = first.base_cells;
+    other.discretization = first.discretization;
+    other.max_level = first.max_level;
+    other.initial_level = std::min(other.initial_level, other.max_level);
+  }
+  return other;
 }
 
 }  // namespace
@@ -123,6 +139,9 @@ SimulationDescription random_scene(std::uint64_t seed, int max_level) {
   scene.integrator = draw_integrator(draw, scene);
   // Drawn apart, so that the other half of the scenes is what it would be without.
   if (Draw more(~seed); more.chance(0.5)) add_surroundings(more, scene);
+  Draw company(seed + (std::uint64_t{3} << 32));
+  const ClothDescription other = draw_other(company, max_level, scene);
+  add_company(company, other, scene);
   return scene;
 }
 

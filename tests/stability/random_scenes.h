@@ -1,6 +1,6 @@
 #pragma once
 /// Scenes drawn from a seed: a cloth of any size, aspect, fabric, hold and turn, balls, wind, integrator,
-/// step; in half of them more around it (random_surroundings.h).
+/// step; in half of them more around it, in some wind zones and a second cloth (random_surroundings.h).
 #include "case.h"
 
 namespace weft::stability {

@@ -65,6 +65,12 @@ void make_body(Draw& draw, ObstacleDescription& obstacle) {
   obstacle.body = body;
 }
 
+void add_layers(Draw& draw, SimulationDescription& scene) {
+  const double size = scene.cloths[0].size.minCoeff();
+  const double thickness = std::clamp(size * draw.decades(1e-3, 0.03), 1e-4, 1.0);
+  scene.effects.emplace_back(ClothContactEffect{thickness, draw.between(0, 1)});
+}
+
 /// Its own draw for each purpose, so that a scene shrunk is treated as the whole one was.
 Draw draw_for(const SimulationDescription& scene, std::uint64_t purpose) {
   return Draw(scene.seed + (purpose << 32));
@@ -108,10 +114,7 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
     add(StrainLimitEffect{});
   }
   const bool layers = draw.chance(0.5);
-  if (layers) {
-    const double thickness = std::clamp(cloth.size.minCoeff() * draw.decades(1e-3, 0.03), 1e-4, 1.0);
-    add(ClothContactEffect{thickness, draw.between(0, 1)});
-  }
+  if (layers) add_layers(draw, scene);
   if (draw.chance(0.3)) {
     const double pressure = material.density * draw.decades(1, 100);  // up to ten times the weight
     add(InflationEffect{draw.chance(0.5) ? pressure : -pressure});
@@ -123,6 +126,39 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
     sew(draw, scene);
   }
   for (ObstacleDescription& obstacle : scene.obstacles) make_body(draw, obstacle);
+}
+
+void add_company(Draw& draw, const ClothDescription& other, SimulationDescription& scene) {
+  const ClothDescription& cloth = scene.cloths[0];
+  const double reach = cloth.size.maxCoeff();
+  if (draw.chance(0.3)) {
+    for (int zones = draw.integer(1, 3); zones > 0; --zones) {
+      WindZone zone;
+      const double size = reach * draw.decades(0.05, 2);
+      zone.shape = SphereZone{size};
+      if (draw.chance(0.5)) {
+        const double x = draw.between(0.1, 1), y = draw.between(0.1, 1), z = draw.between(0.1, 1);
+        zone.shape = BoxZone{size * Vec3(x, y, z), draw_turn(draw)};
+      }
+      zone.position = cloth.position + draw.in_box(reach);
+      zone.velocity = draw.in_box(draw.decades(0.1, 50));
+      zone.edge = std::max(1e-3, size * draw.decades(1e-3, 1));
+      scene.wind.zones.push_back(zone);
+    }
+  }
+  if (!draw.chance(0.3)) return;
+  scene.cloths.push_back(other);
+  scene.cloths[1].name = "other";
+  scene.cloths[1].position = cloth.position + draw.in_box(reach / 2);
+  // Methods of many substeps find contact in each of them, which takes minutes a scene.
+  const bool is_implicit = std::holds_alternative<BackwardEulerDescription>(scene.integrator) ||
+                           std::holds_alternative<Bdf2Description>(scene.integrator);
+  const bool may_touch = is_implicit && !cloth.sewn &&
+                         std::none_of(scene.effects.begin(), scene.effects.end(), [](const auto& effect) {
+                           return std::holds_alternative<TearingEffect>(effect) ||
+                                  std::holds_alternative<ClothContactEffect>(effect);
+                         });
+  if (may_touch && draw.chance(0.5)) add_layers(draw, scene);
 }
 
 std::optional<Hand> hand_of(const SimulationDescription& scene) {

@@ -13,6 +13,10 @@ namespace weft::stability {
 /// inflation.
 void add_surroundings(Draw& draw, SimulationDescription& scene);
 
+/// Adds, in three of ten scenes each: zones where the wind is another one; a second cloth, `other`, near the
+/// first. Half of those that an implicit method steps get contact between the two, where they may have it.
+void add_company(Draw& draw, const ClothDescription& other, SimulationDescription& scene);
+
 /// A hand that takes hold of the cloth, goes and lets go. Drawn from the scene's seed; null in half of them.
 struct Hand {
   Vec2 at{0, 0};      ///< (u, v)

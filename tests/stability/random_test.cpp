@@ -64,6 +64,7 @@ TEST(RandomScene, IsTheSameForTheSameSeed) {
 TEST(RandomScene, HundredSeedsHaveEverything) {
   std::set<std::size_t> effects, shapes, integrators;
   int paths = 0, bodies = 0, gusts = 0, eddies = 0, hands = 0, switches = 0, bags = 0, gas = 0;
+  int zones = 0, pairs = 0, touching_pairs = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const SimulationDescription drawn = random_scene(seed, 4);
     for (const EffectDescription& each : drawn.effects) {
@@ -72,6 +73,13 @@ TEST(RandomScene, HundredSeedsHaveEverything) {
       gas += inflation != nullptr && inflation->volume.has_value();
     }
     bags += drawn.cloths[0].sewn;
+    zones += !drawn.wind.zones.empty();
+    const bool has_two = drawn.cloths.size() > 1;
+    pairs += has_two;
+    touching_pairs +=
+        has_two && std::any_of(drawn.effects.begin(), drawn.effects.end(), [](const auto& each) {
+          return std::holds_alternative<ClothContactEffect>(each);
+        });
     for (const ObstacleDescription& each : drawn.obstacles) {
       shapes.insert(each.shape.index());
       paths += !each.path.empty();
@@ -86,7 +94,10 @@ TEST(RandomScene, HundredSeedsHaveEverything) {
   EXPECT_EQ(effects.size(), std::variant_size_v<EffectDescription>);
   EXPECT_EQ(shapes.size(), std::variant_size_v<decltype(ObstacleDescription::shape)>);
   EXPECT_EQ(integrators.size(), std::variant_size_v<IntegratorDescription>);
-  for (const int drawn : {paths, bodies, gusts, eddies, hands, switches, bags, gas}) EXPECT_GT(drawn, 5);
+  for (const int drawn :
+       {paths, bodies, gusts, eddies, hands, switches, bags, gas, zones, pairs, touching_pairs}) {
+    EXPECT_GT(drawn, 5);
+  }
 }
 
 TEST(RandomScene, IsASceneFile) {
@@ -100,6 +111,7 @@ TEST(RandomScene, IsASceneFile) {
       const SimulationDescription& again = std::get<scene::Scene>(read).simulation;
       EXPECT_EQ(again.balls.size(), drawn.balls.size());
       EXPECT_EQ(again.obstacles.size(), drawn.obstacles.size());
+      EXPECT_EQ(again.cloths.size(), drawn.cloths.size());
       EXPECT_EQ(scene_json(again)["cloths"][0]["material"], scene_json(drawn)["cloths"][0]["material"]);
       EXPECT_EQ(scene_json(again)["integrator"], scene_json(drawn)["integrator"]);
       EXPECT_EQ(scene_json(again)["effects"], scene_json(drawn)["effects"]);

@@ -134,6 +134,22 @@ json typed(const Variant& variant) {
   return made;
 }
 
+struct ZoneWriter {
+  json operator()(const BoxZone& z) const {
+    const Quaternion& turn = z.orientation;
+    return {{"size", json_of(z.size)},
+            {"orientation", {{"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}}}};
+  }
+  json operator()(const SphereZone& z) const { return {{"radius", z.radius}}; }
+};
+
+json json_of(const WindZone& zone) {
+  json made = typed<ZoneWriter>(zone.shape);
+  made.update(
+      {{"position", json_of(zone.position)}, {"velocity", json_of(zone.velocity)}, {"edge", zone.edge}});
+  return made;
+}
+
 bool reads_wind(const EffectDescription& effect) {
   return std::holds_alternative<PaperWindEffect>(effect) ||
          std::holds_alternative<AerodynamicsEffect>(effect);
@@ -181,6 +197,7 @@ json scene_json(const SimulationDescription& scene) {
           {"gusts", {{"intensity", wind.gusts.intensity}, {"time_scale", wind.gusts.time_scale}}},
           {"turbulence",
            {{"intensity", wind.turbulence.intensity}, {"length_scale", wind.turbulence.length_scale}}}};
+      for (const WindZone& zone : wind.zones) made["wind"]["zones"].push_back(json_of(zone));
     }
   }
   return made;

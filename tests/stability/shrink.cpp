@@ -24,6 +24,7 @@ Scenes simpler_than(const SimulationDescription& scene) {
            [&](auto& s) { (s.*member).erase((s.*member).begin() + static_cast<std::ptrdiff_t>(i)); });
     }
   };
+  if (scene.cloths.size() > 1) with(simpler, scene, [](auto& s) { s.cloths.pop_back(); });
   without(&SimulationDescription::balls);
   without(&SimulationDescription::obstacles);
   without(&SimulationDescription::effects);
@@ -60,6 +61,7 @@ Scenes simpler_than(const SimulationDescription& scene) {
     with(simpler, scene, [&](auto& s) { s.balls[i].velocity.setZero(); });
   }
   with(simpler, scene, [](auto& s) { s.wind = Wind{}; });
+  with(simpler, scene, [](auto& s) { s.wind.zones.clear(); });
   with(simpler, scene, [](auto& s) { s.wind.gusts = {}; });
   with(simpler, scene, [](auto& s) { s.wind.turbulence = {}; });
   with(simpler, scene, [](auto& s) { s.time_step = 1.0 / 60; });
