@@ -245,7 +245,8 @@ void NodeContact<Real>::put_outside(const PlacedShape& shape, const Vec3& from, 
                                     double distance) {
   double margin = (from.cwiseAbs().sum() + std::max(distance, (from - shape.centre).norm()) + distance) *
                   double(std::numeric_limits<Real>::epsilon()) / 2;
-  const Vec3 begin = from;  // which may be position_, and that goes
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): it may be position_, and that goes.
+  const Vec3 begin = from;
   do {
     set_position(begin + (distance + margin) * direction);
     margin *= 2;
