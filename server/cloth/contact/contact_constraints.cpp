@@ -86,7 +86,8 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
     if (surface.distance <= touching_distance(h)) {
       constraints_.push_back(holding(touch, *solid, surface));
-    } else if (lay_on(*solid, at(position, touch.node))) {
+    } else if (const Vec3 place = at(position, touch.node);
+               lay_on(*solid, place) && !flies_through(*solid, place, guess)) {
       not_held_.push_back(touch);
     }
   }
@@ -266,6 +267,13 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
 template <class Real>
 bool ContactConstraints<Real>::lay_on(const Solid& solid, const Vec3& place) const {
   return solid.placed(substep_.from).may_touch(place, touching_distance(substep_.seconds));
+}
+
+template <class Real>
+bool ContactConstraints<Real>::flies_through(const Solid& solid, const Vec3& place, const Vec3& to) const {
+  const PlacedShape shape = solid.placed(substep_.to);
+  const Vec3 from = place + solid.move_of(place, substep_.from, substep_.to);
+  return !shape.contains(from) && shape.first_hit(from, to).has_value();
 }
 
 template <class Real>

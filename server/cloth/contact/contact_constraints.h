@@ -120,6 +120,8 @@ class ContactConstraints {
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
   bool lay_on(const Solid& solid, const Vec3& place) const;
+  /// Going on as it goes, the node comes out on the other side: it does not leave the solid by that.
+  bool flies_through(const Solid& solid, const Vec3& place, const Vec3& to) const;
   /// The body that the solid is, a new one if need be; none if it does not yield.
   std::optional<int> body_of(const Solid& solid, const std::vector<Solid>& solids,
                              AttachedBodies<Real>& bodies);
