@@ -27,12 +27,6 @@ int steps_from(Unsettled by) {
   }
 }
 
-/// Each of those steps lasts so many times as long as the one before: what the first ones, which a fold
-/// outlasts, leave are folds that shift. Of 0.63 J that a merge gives to a light sheet's folds (random scene
-/// 1219) twelve equal steps leave 19 mJ, three hundred 7.9, these 7.6; with 2 in place of 1.5 they overshoot
-/// and leave 15.
-constexpr double kLonger = 1.5;
-
 /// Springs and plate hold no more than `energy`, J.
 template <class Real>
 bool hold_at_most(double energy, const Particles<Real>& particles, const Forces<Real>& forces) {
@@ -84,13 +78,12 @@ void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   forces.context.wind = &calm;
   const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
   bool sound = true;
-  double lasts = std::min(crossing, longest);
   for (int step = 0; step < steps_from(by) && sound; ++step) {
     stop(particles);
-    sound = relaxing->advance(particles, forces, contact, still, forces.context.time, lasts).sound;
-    if (by != Unsettled::by_gain) continue;
-    if (hold_at_most(enough, particles, forces)) break;
-    lasts *= kLonger;
+    sound =
+        relaxing->advance(particles, forces, contact, still, forces.context.time, std::min(crossing, longest))
+            .sound;
+    if (by == Unsettled::by_gain && hold_at_most(enough, particles, forces)) break;
   }
   if (!sound) particles.position = before.position;
   particles.velocity = before.velocity;

@@ -30,8 +30,8 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 /// stay as they were. Each lasts as long as a wave of stretch takes to run across the sheet, sqrt(density /
 /// structural) times its size (`longest`, s, at most): what is stretched evens out, folds keep their shape.
 ///
-/// By_gain there are no more of them once springs and plate hold no more than `enough`, J, and each lasts
-/// longer than the one before.
+/// There are no more of them once springs and plate hold no more than `enough`, J, which is only asked
+/// by_gain.
 ///
 /// Nothing happens if no relaxed state is found.
 template <class Real>
