@@ -129,7 +129,7 @@ void add_surroundings(Draw& draw, SimulationDescription& scene) {
 }
 
 void add_company(Draw& draw, const ClothDescription& other, SimulationDescription& scene) {
-  const ClothDescription& cloth = scene.cloths[0];
+  const ClothDescription cloth = scene.cloths[0];  // a copy: another one is added below
   const double reach = cloth.size.maxCoeff();
   if (draw.chance(0.3)) {
     for (int zones = draw.integer(1, 3); zones > 0; --zones) {
