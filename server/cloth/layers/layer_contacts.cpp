@@ -15,8 +15,8 @@ namespace {
 /// it is.
 constexpr float kSoft = 50, kStiff = 5000;
 /// Searches for what meets, a substep; pairs that come as near as so many of the net's gaps are looked at,
-/// and are then held this part of their own apart at least. A strip wrung by four turns had, without them,
-/// eight times its work put in by the net, and with them a fifteenth.
+/// or found where all is searched, and are then held this part of their own apart at least. A strip wrung by
+/// four turns had, without them, eight times its work put in by the net, and with them a fifteenth.
 constexpr int kMostRounds = 4;
 constexpr double kPairsInSight = 1.5, kPairsFound = 8, kMeetingPart = 0.4;
 /// Pairs in which a node, or the edges that begin at it, are held anew in a round: a bound on memory.
