@@ -115,6 +115,10 @@ class Cloth {
   /// push_balls(). Several cloths may do it at the same time, each with its share of a ball that they all
   /// touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
+  /// Its nodes that touch solids; none if nothing has come near any.
+  std::span<const Touch> touches() const {
+    return contact_ ? std::span<const Touch>(contact_->touches()) : std::span<const Touch>();
+  }
   /// Touches the solid, or will within a step of `dt` seconds if all go on as they go.
   bool meets(const Solid& solid, double dt);
   /// Hands over what the last advance gave to the balls.

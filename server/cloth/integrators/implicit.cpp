@@ -62,7 +62,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
-    if (forces.layers != nullptr) forces.layers->begin(particles, part);
+    if (forces.layers != nullptr) forces.layers->begin(particles, part, state_->motion.near_rest());
     begin_substep(particles, forces.layers, h);
     report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();

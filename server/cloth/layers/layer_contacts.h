@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cloth/contact/contact.h"
+#include "cloth/layers/pair_forces.h"
 #include "cloth/layers/substep_net.h"
 #include "cloth/solver/node_couplings.h"
 #include "cloth/solver/one_sided_springs.h"
@@ -30,20 +31,23 @@ struct LayerParameters {
 /// To an implicit step it is a spring between the four nodes, as contact_constraints.h has it for solids: it
 /// begins to act where the nodes' velocities would bring them too near or where it acted in the last step,
 /// is stiffened where layers are pressed far into their gap, is taken away if it pulls, and drags with at
-/// most friction times the force of the step before. Within a cloth that force also pushes on, so that the
-/// spring has only to give the change (an augmented Lagrangian: Nocedal and Wright, Numerical Optimization,
-/// 2006, 17.3): however strongly a rope is wrung, its layers come to stand in equilibrium with all other
-/// forces, and nothing is put right at nobody's cost. What would still pass through each other at the end of
-/// the step's iterations is held, too, and more are made. Layers nearer than their gap are led apart by a
-/// part of what they lack a step.
+/// most friction times the force of the step before. That force also pushes on, so that the spring has only
+/// to give the change (an augmented Lagrangian: Nocedal and Wright, Numerical Optimization, 2006, 17.3):
+/// however strongly a rope is wrung, its layers come to stand in equilibrium with all other forces, and
+/// nothing is put right at nobody's cost. What would still pass through each other at the end of the step's
+/// iterations is held, too, and more are made. Layers nearer than their gap are led apart by a part of what
+/// they lack a step, near rest until they have half of it.
 ///
 /// To an explicit substep it is an inelastic impulse; and what it misses within the cloth SubstepNet holds.
 ///
 /// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
-/// other. To an implicit step these masses also have the acceleration they had but for contact, and are in
-/// series with the constraint's spring: so a cloth feels the weight of what lies on it. (In explicit steps
-/// that acceleration is mostly the stiff springs' noise, and throws cloths apart.)
+/// other. To an implicit step these masses are in series with the constraint's spring, and the force that
+/// pushes on is the mean of what both have found (share_forces): so each feels the other's weight, and they
+/// come to rest on each other. Near rest what sticks also goes on with the friction that held it: found anew
+/// in each step it would creep. In a contact's first steps, which know no such force, the masses also have
+/// the acceleration they had but for contact. (Later that is mostly the stiff springs' noise, as it is in
+/// explicit steps: two cloths on each other shook by 2 mm a step for ever.)
 template <class Real>
 class LayerContacts {
  public:
@@ -64,8 +68,8 @@ class LayerContacts {
 
   // An implicit substep.
 
-  /// At the substep's begin; moving pins are where they will be at its end.
-  void begin(const Particles<Real>& particles, const Substep& substep);
+  /// At the substep's begin; moving pins are where they will be at its end. The cloth may be near rest.
+  void begin(const Particles<Real>& particles, const Substep& substep, bool near_rest);
   /// Adds the constraints to the system of a Newton iteration at `move`; `diagonal` is the system's, N/m.
   void add_to(kernels::Components<Real> b, NodeCouplings<Real>& couplings, const Real* diagonal,
               kernels::Components<const Real> move);
@@ -101,6 +105,8 @@ class LayerContacts {
   std::vector<std::size_t>& struck() { return struck_; }
   /// What other cloths gave each node in the last implicit step, N s.
   const std::vector<Vec3>& given() const { return given_; }
+  /// Of all pairs that pressed in the last implicit substep; what they are changed to is carried on.
+  std::vector<PairForce>& forces() { return forces_; }
 
   /// Those of the same cloth in another simulation; the nodes and the search stay its own.
   void take_state(const LayerContacts& other) {
@@ -112,29 +118,28 @@ class LayerContacts {
   }
 
  private:
-  /// By what a pair is known again in the next step: node and side, or both edges.
-  using Key = std::array<std::uint32_t, 4>;
   struct Constraint {
     typename NodeCouplings<Real>::Coupling coupling;  ///< of the free nodes
     Vec3 normal;
     double distance = 0;  ///< along the normal as the substep begins, m
     double closing = 0;   ///< of which is gained, if all go on as before, m
     double wanted = 0;    ///< distance in the end, m
-    double gap = 0;       ///< wanted at last, m
+    double gap = 0;       ///< at which they touch, m
     double room = 0;      ///< as the substep ends, if the free nodes stay, less what is wanted, m
     Vec3 slid;            ///< what the others slide, m
     double sliding = 0;   ///< along the surface, if all go on as before, m
     double memory = 0;    ///< force of the substep before, N
-    double pressed = 0;   ///< of which is carried on, N
+    double pressed = 0;   ///< that is carried on, N
     double holds = 0;     ///< at most, by friction, N
     double stiffness = 0, friction = 0;  ///< N/m
+    Vec3 grip{0, 0, 0};                  ///< of static friction when the substep begins, N
     bool acts = true;
     bool edges = false;  ///< not a node and a triangle
     double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
-    Key key{};
+    PairKey key{};
   };
   bool own(std::uint32_t node) const { return node >= first_ && node < end_; }
-  double remembered(const Key& key) const;
+  PairForce remembered(const PairKey& key) const;
   Constraint constraint(const LayerPair& pair) const;
   /// A pair of own_ as it meets on its way; none if it does not.
   std::optional<LayerPair> meeting(const FeaturePair& features) const;
@@ -144,7 +149,10 @@ class LayerContacts {
   double push(const Constraint& c, kernels::Components<const Real> move) const {
     return c.pressed - c.stiffness * room(c, move);
   }
-  Vec3 force_at(const Constraint& c, kernels::Components<const Real> move) const;
+  /// Along the surface, N.
+  Vec3 rub(const Constraint& c, kernels::Components<const Real> move) const {
+    return c.grip - c.friction * slip(c, move);
+  }
   void adapt(kernels::Components<const Real> move);
   Vec3 slip(const Constraint& c, kernels::Components<const Real> move) const;
 
@@ -156,13 +164,14 @@ class LayerContacts {
   LayerParameters parameters_;
   std::vector<LayerPair> pairs_;
   std::vector<Constraint> constraints_;
-  std::vector<std::pair<Key, double>> forces_;  ///< of the last substep, N, sorted
-  std::vector<float> stiffness_;                ///< at each node, as a multiple of the inertia
-  std::vector<std::uint8_t> met_;               ///< by each node, in a round
-  std::vector<char> strained_;  ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
+  std::vector<PairForce> forces_;  ///< of the last substep, sorted
+  std::vector<float> stiffness_;   ///< at each node, as a multiple of the inertia
+  std::vector<std::uint8_t> met_;  ///< by each node, in a round
+  std::vector<char> strained_;     ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
   std::vector<std::size_t> struck_;
   std::vector<Vec3> given_;
   Substep substep_;
+  bool near_rest_ = false;
   LayerNodes own_;        ///< this cloth's nodes alone, on their ways in the substep
   FeatureSearch search_;  ///< among them
   SubstepNet substep_net_;

@@ -44,6 +44,8 @@ class Layers {
   void take_over_tears(const std::vector<Cloth<Real>>& cloths);
   void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
   void read_masses(const std::vector<Cloth<Real>>& cloths);
+  /// To the net, what goes on lying on solids is harder to move: it cannot give way into them.
+  void weigh_down(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   std::size_t sheet_of(std::uint32_t node) const;
@@ -56,6 +58,8 @@ class Layers {
   FeatureSearch search_;
   CollisionNet net_{0};
   std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
+  std::vector<char> pressed_;   ///< by node, by another cloth, in the step before the last
+  std::vector<char> on_solid_;  ///< by node, as the last step ended
   std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
   std::vector<char> crowded_;   ///< by cloth, in the last step
   bool found_ = false;          ///< pairs, at these levels

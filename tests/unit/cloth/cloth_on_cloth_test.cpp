@@ -1,0 +1,112 @@
+// Cloths that lie on each other: what each feels of the other, and that they come to rest.
+#include <gtest/gtest.h>
+
+#include "cloth/layers/pair_forces.h"
+#include "fixtures.h"
+#include "folding_scenes.h"
+#include "held.h"
+
+namespace weft::test {
+namespace {
+
+PairForce found(std::uint32_t node, double force, bool between_cloths) {
+  return {.pair = {node, node, 0, 0},
+          .force = force,
+          .grip = {force / 4, 0, 0},
+          .between_cloths = between_cloths};
+}
+
+/// Their friction is a quarter of them.
+std::vector<double> forces_of(const std::vector<PairForce>& pairs) {
+  std::vector<double> forces;
+  for (const PairForce& pair : pairs) {
+    EXPECT_EQ(pair.grip.x(), pair.force / 4);
+    forces.push_back(pair.force);
+  }
+  return forces;
+}
+
+/// The small cloth of caught(), so many times as heavy, in the hollow of the large one.
+SimulationDescription in_a_hollow(double times, const IntegratorDescription& stepping, int hz) {
+  SimulationDescription scene = caught(4, stepping);
+  scene.time_step = 1.0 / hz;
+  scene.cloths[1].material.density *= times;
+  scene.effects.emplace_back(DampingEffect{});
+  for (ClothDescription& cloth : scene.cloths) cloth.material.damping = 0.5;
+  return scene;
+}
+
+double mass(const Cloth<float>& cloth) {
+  return cloth.description().size.prod() * cloth.description().material.density;
+}
+
+/// Of two that press on each other: mass of the upper one to what it has by itself, method, steps a second.
+class OneInTheOther : public ::testing::TestWithParam<std::tuple<double, const char*, int>> {
+ protected:
+  static SimulationDescription scene() {
+    const auto [times, method, hz] = GetParam();
+    const IntegratorDescription stepping = std::string_view(method) == "bdf2"
+                                               ? IntegratorDescription(Bdf2Description{})
+                                               : IntegratorDescription(BackwardEulerDescription{});
+    return in_a_hollow(times, stepping, hz);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Masses, OneInTheOther,
+                         ::testing::Combine(::testing::Values(1.0, 4.0),
+                                            ::testing::Values("bdf2", "backward_euler"),
+                                            ::testing::Values(60, 30)));
+
+class OneOnTheOther : public ::testing::TestWithParam<IntegratorDescription> {};
+INSTANTIATE_TEST_SUITE_P(Methods, OneOnTheOther,
+                         ::testing::Values(IntegratorDescription(Bdf2Description{}),
+                                           IntegratorDescription(BackwardEulerDescription{})));
+
+}  // namespace
+
+TEST(PairForces, AreSharedByTwoClothsThatPressOnEachOther) {
+  std::vector<PairForce> one{found(1, 2, true), found(3, 5, false), found(7, 4, true)},
+      other{found(0, 9, true), found(1, 6, true), found(3, 1, false)};
+  std::vector<PairForce>* const both[] = {&one, &other};
+  share_forces(both);
+  // Pair 1 by both: (2 + 6) / 2. Pair 3 lies within each; pairs 0 and 7 press in one cloth's step alone.
+  EXPECT_EQ(forces_of(one), (std::vector<double>{4, 5, 4}));
+  EXPECT_EQ(forces_of(other), (std::vector<double>{9, 4, 1}));
+}
+
+// Newton's third law and T1: at rest the four pins bear the weight of both cloths.
+TEST_P(OneInTheOther, PinsBearTheWeightOfBoth) {
+  Simulation<float> simulation(scene());
+  const int hz = std::get<2>(GetParam());
+  for (int step = 0; step < 15 * hz; ++step) simulation.step();
+  double borne = 0;  // N, the mean of a second
+  for (int step = 0; step < hz; ++step) {
+    simulation.step();
+    for (const Vec3& force : Held::of(simulation.cloths()[0]).force) borne -= force.y() / hz;
+  }
+  const double weight =
+      (mass(simulation.cloths()[0]) + mass(simulation.cloths()[1])) * -standard_gravity().y();
+  EXPECT_NEAR(borne, weight, 0.01 * weight);
+  EXPECT_GT(simulation.centre(1).y(), -1) << "it was caught";
+}
+
+// Sleep takes what moves by less than SimulationDescription::sleep_speed.
+TEST_P(OneOnTheOther, BothComeToRestAndSleep) {
+  SimulationDescription description = in_a_hollow(1, GetParam(), 60);
+  description.sleep_speed = SimulationDescription{}.sleep_speed;
+  Simulation<float> simulation(description);
+  for (int step = 0; step < 1200; ++step) simulation.step();
+  EXPECT_TRUE(simulation.cloths()[0].asleep());
+  EXPECT_TRUE(simulation.cloths()[1].asleep());
+}
+
+// A tenth of a millimetre a second: what sticks does not creep. Each step anew, friction would have to slip
+// by g sin(angle) h^2 / 50 for its force, 0.9 mm/s on this slope.
+TEST_P(OneOnTheOther, WhatSticksDoesNotCreep) {
+  Simulation<float> simulation(on_a_slope(15, 0.5, GetParam()));
+  for (int step = 0; step < 120; ++step) simulation.step();
+  const Vec3 before = simulation.centre(1);
+  for (int step = 0; step < 60; ++step) simulation.step();
+  EXPECT_LT((simulation.centre(1) - before).norm(), 1e-4);
+}
+
+}  // namespace weft::test
