@@ -256,6 +256,7 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
     });
     if (stuck) {
       kept.push_back(*std::min_element(node, end, moves_least));
+      kept.back().pinched = true;
     } else {
       kept.insert(kept.end(), node, end);
     }
@@ -326,6 +327,7 @@ void ContactConstraints<Real>::append_springs(kernels::Components<const Real> mo
                                               const AttachedBodies<Real>& bodies,
                                               std::vector<OneSidedSpring>& springs) const {
   for (const Constraint& c : constraints_) {
+    if (c.pinched) continue;
     Vec3 way = at(change, c.touch.node);
     if (c.body) way -= bodies.change(*c.body, c.arm);
     springs.push_back(
@@ -339,7 +341,7 @@ double ContactConstraints<Real>::release_pulling(kernels::Components<const Real>
   double energy = 0;
   for (Constraint& c : constraints_) {
     const double beyond = c.normal.dot(move_of(c, move, bodies)) - c.distance;
-    if (c.released == (beyond > 0)) continue;
+    if (c.pinched || c.released == (beyond > 0)) continue;
     c.released = !c.released;
     energy += c.stiffness * beyond * beyond / 2;
   }
@@ -356,7 +358,7 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
     const Vec3 moved = move_of(c, move, bodies);
     const double depth = c.distance - c.normal.dot(moved);
     c.grip = friction(c, moved);
-    c.force = c.released ? 0 : std::max(0.0, c.stiffness * depth);
+    c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
     if (c.body && c.force > 0) pressed_.push_back(c.touch);
     if (c.body && solid_of(c.touch, solids).yields_turning()) kept_aside_.push_back(c.touch);
   }

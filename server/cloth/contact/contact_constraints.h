@@ -20,7 +20,8 @@ namespace weft {
 /// that is heavier than they are would gain energy without bound.
 ///
 /// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
-/// will have it: both would squeeze it out sideways, and stretch its springs at nobody's cost.
+/// will have it: both would squeeze it out sideways, and stretch its springs at nobody's cost. It is not let
+/// go there, whatever pulls: it would go into the other one, and be put back after each step (S9b).
 ///
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
 /// iteration has put into one from the next on: put there after the step they would stretch their springs at
@@ -102,7 +103,8 @@ class ContactConstraints {
     bool has_stuck = false;         ///< since it touches
     double speeding_up = 0;         ///< then: by how much more it will slide by what pulls at it, m
     bool released = false;
-    Vec3 grip{0, 0, 0};  ///< of static friction when the substep begins; after finish, when it ends, N
+    bool pinched = false;  ///< held both ways: another solid keeps the node from leaving this one
+    Vec3 grip{0, 0, 0};    ///< of static friction when the substep begins; after finish, when it ends, N
     bool sticks() const { return friction_stiffness > 0 && friction_stiffness == stiffness; }
   };
   /// The force along the surface at `moved`, N.

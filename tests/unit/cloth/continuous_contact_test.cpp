@@ -227,5 +227,50 @@ TYPED_TEST(ContinuousContact, ANodePinchedBetweenBallAndFloorStaysOnTheFloor) {
   EXPECT_GT(pinched, 10);  // pi 0.16^2 / 0.0625^2 = 21
 }
 
+// The sheet lies on a fixed ball, another presses it down by 5 cm more than there is room for (S9b). The
+// sheet around pulls what is between them off the ball that holds it, into the other one: after a quarter of
+// a second it lies still all the same, to a hundred-thousandth of the sheet's size.
+TEST(ContinuousContactOfAStep, WhatIsPinchedBetweenTwoBallsLiesStill) {
+  SimulationDescription scene;
+  scene.integrator = BackwardEulerDescription{};
+  scene.time_step = 1.0 / 30;
+  scene.sleep_speed = 0;
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  scene.cloths.resize(1);
+  ClothDescription& cloth = scene.cloths[0];
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::acos(-1.0) / 2, Vec3::UnitX()));
+  cloth.position = {0, 0.35, 0};
+  cloth.min_level = cloth.max_level = cloth.initial_level = 6;
+  cloth.material.damping = 0.5;
+  const Vec3 above(0, 1.1, 0), pressing(0, 0.55, 0);  // of two balls of 0.3 m
+  scene.balls.resize(2);
+  for (BallDescription& ball : scene.balls) {
+    ball.radius = 0.3;
+    ball.friction = 0.5;
+  }
+  scene.balls[1].path = {{2, above}, {2.55, pressing}};
+  Simulation<float> simulation(scene);
+  std::vector<Vec3> before, before_it;
+  double shaken = 0;  // m
+  int pinched = 0;
+  for (int step = 1; step <= 92; ++step) {
+    simulation.step();
+    const Particles<float>& particles = simulation.cloths()[0].particles();
+    std::vector<Vec3> now;
+    pinched = 0;
+    each_node(particles.grid(), [&](int r, int c) {
+      now.push_back(particles.position_at(r, c));
+      const bool between = (now.back() - pressing).norm() < 0.301 && now.back().norm() < 0.301;
+      if (!between) return;
+      ++pinched;
+      const std::size_t i = now.size() - 1;
+      if (step > 84) shaken = std::max(shaken, (now[i] - 2 * before[i] + before_it[i]).norm() / 2);
+    });
+    before_it = std::exchange(before, now);
+  }
+  EXPECT_GT(pinched, 30);  // pi (0.3^2 - 0.275^2) / 0.03125^2 = 46
+  EXPECT_LT(shaken, 1e-5 * cloth.size.x());
+}
+
 }  // namespace
 }  // namespace weft
