@@ -156,7 +156,7 @@ TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
   // 5000 triangles whose corners lie on a ball of 0.3 m: their middles are lower by R (1 - cos(a / 2)) = 0.73
   // mm at most, a the angle of their longest sides. The fall's bounce and the folds go their own ways; how
   // high the cloth's middle, held by friction, rests in the end does not, and no node gets inside.
-  constexpr double kRadius = 0.3, kOutside = 1e-4;
+  constexpr double kRadius = 0.3, kClearance = 1e-4;
   const double facet = kRadius * (1 - std::cos(std::hypot(pi / 51, 2 * pi / 50) / 2));
   ObstacleDescription sphere = mesh_obstacle(test::sphere_mesh(kRadius, 51, 50));
   const TriangleMesh& surface = *std::get<MeshDescription>(sphere.shape).surface;
@@ -184,8 +184,8 @@ TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
     lowest_on_ball = std::min(lowest_on_ball, on_ball.position_at(r, c).norm());
     lowest_on_mesh = std::min(lowest_on_mesh, place.norm());
   });
-  EXPECT_NEAR(lowest_on_ball, kRadius, kOutside);
-  EXPECT_NEAR(lowest_on_mesh, lowest_on_ball, facet + kOutside);
+  EXPECT_NEAR(lowest_on_ball, kRadius, kClearance);
+  EXPECT_NEAR(lowest_on_mesh, lowest_on_ball, facet + kClearance);
 }
 
 TEST(DrapedMesh, SameBitsTwiceAndWhereverElseItIsUsed) {
