@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 
 #include "cloth/colliders.h"
 #include "cloth/effects/grab.h"

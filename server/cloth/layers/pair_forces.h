@@ -20,8 +20,8 @@ struct PairForce {
 };
 
 /// Makes the forces that two cloths have found for one pair their mean, so that each gives what the other
-/// takes. `of_cloths` are each cloth's forces, every pair at most once. A pair that only one found to press
-/// keeps its force.
+/// takes. `of_cloths` are each cloth's forces; between cloths every pair is there once at most. What only one
+/// found to press keeps its force.
 void share_forces(std::span<std::vector<PairForce>* const> of_cloths);
 
 }  // namespace weft
