@@ -335,22 +335,45 @@ void LayerContacts<Real>::finish(kernels::Components<const Real> move) {
 }
 
 template <class Real>
+void LayerContacts<Real>::move_others(const Substep& substep) {
+  if (substep.from == 0) {
+    others_.clear();
+    for (const LayerPair& pair : pairs_) {
+      for (const std::uint32_t n : pair.features.node) {
+        if (own(n)) continue;
+        const double inverse_mass = nodes_->lies[n] != 0 ? 0.0 : nodes_->inverse_mass[n];
+        others_.push_back({n, nodes_->start[n], nodes_->velocity[n], inverse_mass});
+      }
+    }
+    std::sort(others_.begin(), others_.end(), [](const Other& a, const Other& b) { return a.node < b.node; });
+    others_.erase(std::unique(others_.begin(), others_.end(),
+                              [](const Other& a, const Other& b) { return a.node == b.node; }),
+                  others_.end());
+  }
+  for (Other& each : others_) each.position += substep.seconds * each.velocity;
+}
+
+template <class Real>
 void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& substep) {
   struck_.clear();
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
-  const double past = substep.to * substep.step_seconds();
+  move_others(substep);
   const double part = 1 - std::pow(1 - kLedApart, substep.to - substep.from);
   for (const LayerPair& pair : pairs_) {
     FourPoints x, v;
+    std::array<double, 4> inverse_mass;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       if (own(n)) {
         x[i] = at<Real>(position, n - first_);
         v[i] = at<Real>(velocity, n - first_);
+        inverse_mass[i] = nodes_->inverse_mass[n];
       } else {
-        v[i] = nodes_->velocity[n];
-        x[i] = nodes_->start[n] + past * v[i];
+        const Other& each = other(n);
+        x[i] = each.position;
+        v[i] = each.velocity;
+        inverse_mass[i] = each.inverse_mass;
       }
     }
     const Nearness near = nearness(pair.features.kind, x);
@@ -362,7 +385,7 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     Vec3 relative(0, 0, 0);
     for (std::size_t i = 0; i < 4; ++i) {
       const double w = near.weight[i];
-      share += w * w * nodes_->inverse_mass[pair.features.node[i]];
+      share += w * w * inverse_mass[i];
       relative += w * v[i];
     }
     if (share == 0) continue;
@@ -380,10 +403,15 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     const Vec3 push = apart / share * normal;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
-      const double w = near.weight[i] * nodes_->inverse_mass[n];
-      if (!own(n) || w == 0) continue;
-      add(velocity, n - first_, w * impulse);
-      add(position, n - first_, w * push);
+      const double w = near.weight[i] * inverse_mass[i];
+      if (w == 0) continue;
+      if (own(n)) {
+        add(velocity, n - first_, w * impulse);
+        add(position, n - first_, w * push);
+      } else {
+        other(n).velocity += w * impulse;
+        other(n).position += w * push;
+      }
     }
   }
   if (substep.from == 0) substep_net_.begin_step(*nodes_, *found_, first_, end_);

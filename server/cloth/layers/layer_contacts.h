@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 
 #include "cloth/contact/contact.h"
@@ -42,12 +43,14 @@ struct LayerParameters {
 ///
 /// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
-/// other. To an implicit step these masses are in series with the constraint's spring, and the force that
-/// pushes on is the mean of what both have found (share_forces): so each feels the other's weight, and they
-/// come to rest on each other. Near rest what sticks also goes on with the friction that held it: found anew
-/// in each step it would creep. In a contact's first steps, which know no such force, the masses also have
-/// the acceleration they had but for contact. (Later that is mostly the stiff springs' noise, as it is in
-/// explicit steps: two cloths on each other shook by 2 mm a step for ever.)
+/// other. From substep to explicit substep they go on with what it gives them: thought to go on unhindered,
+/// they swapped velocities with it, and two sheets on each other shook for ever. To an implicit step these
+/// masses are in series with the constraint's spring, and the force that pushes on is the mean of what both
+/// have found (share_forces): so each feels the other's weight, and they come to rest on each other. Near
+/// rest what sticks also goes on with the friction that held it: found anew in each step it would creep. In a
+/// contact's first steps, which know no such force, the masses also have the acceleration they had but for
+/// contact. (Later that is mostly the stiff springs' noise, as it is in explicit steps: two cloths on each
+/// other shook by 2 mm a step for ever.)
 template <class Real>
 class LayerContacts {
  public:
@@ -138,6 +141,19 @@ class LayerContacts {
     double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
     PairKey key{};
   };
+  /// A node of another cloth, as an explicit step foresees it: nothing but this cloth's layers acts on it,
+  /// and that neither where it lies on a solid.
+  struct Other {
+    std::uint32_t node;
+    Vec3 position, velocity;
+    double inverse_mass;  ///< 1/kg
+  };
+  /// At a substep's end, but for what the layers do in it.
+  void move_others(const Substep& substep);
+  Other& other(std::uint32_t node) {
+    return *std::lower_bound(others_.begin(), others_.end(), node,
+                             [](const Other& each, std::uint32_t n) { return each.node < n; });
+  }
   bool own(std::uint32_t node) const { return node >= first_ && node < end_; }
   PairForce remembered(const PairKey& key) const;
   Constraint constraint(const LayerPair& pair) const;
@@ -170,6 +186,7 @@ class LayerContacts {
   std::vector<char> strained_;     ///< at each node in this step: 1 if a gap was half kept, 2 if hardly
   std::vector<std::size_t> struck_;
   std::vector<Vec3> given_;
+  std::vector<Other> others_;  ///< of the step's pairs, by node
   Substep substep_;
   bool near_rest_ = false;
   LayerNodes own_;        ///< this cloth's nodes alone, on their ways in the substep

@@ -68,6 +68,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   nodes_.start.assign(count, Vec3::Zero());
   nodes_.end = nodes_.velocity = nodes_.acceleration = nodes_.start;
   nodes_.inverse_mass.assign(count, 0.0);
+  nodes_.lies.assign(count, 0);
   nodes_.tangled.assign(count, 0);
   pressed_.assign(count, 0);
   on_solid_.assign(count, 0);
@@ -118,11 +119,13 @@ void Layers<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
 template <class Real>
 void Layers<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
   const std::vector<char> before = std::exchange(on_solid_, std::vector<char>(on_solid_.size(), 0));
+  std::fill(nodes_.lies.begin(), nodes_.lies.end(), 0);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     for (const Touch& touch : cloths[k].touches()) {
       const std::size_t n = nodes_.first[k] + touch.node;
-      if (before[n] != 0 && on_solid_[n] == 0) nodes_.inverse_mass[n] *= kOnSolid;
+      if (before[n] != 0 && nodes_.lies[n] == 0) nodes_.inverse_mass[n] *= kOnSolid;
       on_solid_[n] = 1;
+      nodes_.lies[n] = before[n];
     }
   }
 }

@@ -99,4 +99,22 @@ TEST_P(OneOnTheOther, WhatSticksDoesNotCreep) {
   EXPECT_LT((simulation.centre(1) - before).norm(), 1e-4);
 }
 
+// By their momenta they stop, which is all the energy they have: a hit of cloth on cloth has no bounce. Each
+// thinking that the other went on unhindered, they swapped velocities.
+TEST(OneAgainstTheOther, SheetsThatMeetHeadOnStop) {
+  for (const IntegratorDescription& stepping :
+       {IntegratorDescription(XpbdDescription{}), IntegratorDescription(SymplecticEulerDescription{})}) {
+    SimulationDescription scene = fall_together(4, stepping);
+    scene.effects.erase(scene.effects.begin());  // gravity
+    scene.obstacles.clear();
+    scene.cloths[0].velocity = {0, 0.5, 0};
+    scene.cloths[1].velocity = {0, -0.5, 0};
+    Simulation<float> simulation(scene);
+    for (int step = 0; step < 6; ++step) simulation.step();  // 5 mm of 10 until they touch, 10 ms
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LT(simulation.report(i).kinetic_energy, 0.01 * mass(simulation.cloths()[i]) * 0.25 / 2);
+    }
+  }
+}
+
 }  // namespace weft::test
