@@ -13,15 +13,6 @@
 #include "cloth/unfold.h"
 
 namespace weft {
-namespace {
-
-bool is_implicit(const IntegratorDescription& integrator) {
-  return std::holds_alternative<BackwardEulerDescription>(integrator) ||
-         std::holds_alternative<Bdf2Description>(integrator);
-}
-
-}  // namespace
-
 template <class Real>
 Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
                    const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed)
@@ -72,7 +63,7 @@ void Cloth<Real>::fill() {
   } else if (!gas_ || gas_->inflation() != *filling_) {
     const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
     gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
-    if (!gas_->fills(time_) && !is_implicit(guard_.method())) unsettled_ = Unsettled::by_gas;
+    if (!gas_->fills(time_) && !steps_implicitly()) unsettled_ = Unsettled::by_gas;
   }
 }
 
@@ -126,7 +117,7 @@ bool Cloth<Real>::apply_pending_level() {
   // The paper's own rules change levels as the paper does. An implicit step finds its balance by itself, but
   // what springs hold more than before it would make motion.
   if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
-    if (!is_implicit(guard_.method())) {
+    if (!steps_implicitly()) {
       unsettled_ = Unsettled::by_level;
     } else if (elastic_energy() > held_) {
       unsettled_ = Unsettled::by_gain;

@@ -100,6 +100,8 @@ class Cloth {
   bool frozen() const { return guard_.frozen(); }
   /// Neither, and stepped as it was asked for, not in a safer way for a while.
   bool steps_as_asked() const { return !asleep() && !frozen() && guard_.rung() == Rung::own; }
+  bool steps_implicitly() const { return is_implicit(guard_.method()); }
+  bool has_moving_pins() const { return pins_.moving(); }
   /// False if it has never been in a good state.
   bool sound() const { return guard_.sound(); }
   const GuardCounters& guard_counters() const { return guard_.counters(); }

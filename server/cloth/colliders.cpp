@@ -65,12 +65,18 @@ void go(Obstacle& obstacle, const Pose& from, const Pose& to, double dt) {
   take(obstacle, to);  // `from` may be what it has
 }
 
-/// Along its path or to its target, in a step from `time` on.
-void advance(Obstacle& obstacle, double time, double dt) {
+/// Along its path or to its target, in the first of so many steps from `time` on.
+void advance(Obstacle& obstacle, double time, double dt, int steps) {
   obstacle.solid.stand();
-  if (obstacle.target) {
+  if (obstacle.target && steps == 1) {
     go(obstacle, obstacle.pose, *obstacle.target, dt);
     obstacle.target.reset();
+  } else if (obstacle.target) {
+    const auto& [position, orientation] = obstacle.pose;
+    go(obstacle, obstacle.pose,
+       {position + (obstacle.target->position - position) / steps,
+        orientation.slerp(1.0 / steps, obstacle.target->orientation)},
+       dt);
   } else if (!obstacle.path.empty()) {
     const auto pose = [&](double when) { return along_path(obstacle.path, when, obstacle.loops); };
     go(obstacle, pose(time), pose(time + dt), dt);
@@ -229,7 +235,8 @@ void Colliders::forget_target(BallId id) {
   std::erase_if(targets_, [&](const Target& target) { return target.ball == id; });
 }
 
-void Colliders::begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths) {
+void Colliders::begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths,
+                           int parts_left) {
   for (Ball& ball : balls_) {
     ball.start = ball.position;
     ball.sharing = 1;
@@ -248,13 +255,14 @@ void Colliders::begin_step(double time, double dt, const Vec3& gravity, const st
       ball.velocity.setZero();
       targets_.erase(target);
     } else {
-      ball.position = target->position;
+      target->reached = parts_left == 1;
+      ball.position =
+          target->reached ? target->position : ball.start + (target->position - ball.start) / parts_left;
       ball.velocity = (ball.position - ball.start) / dt;
-      target->reached = true;
     }
   }
   for (Obstacle& obstacle : obstacles_) {
-    if (obstacle.mobile && !obstacle.flies()) advance(obstacle, time, dt);
+    if (obstacle.mobile && !obstacle.flies()) advance(obstacle, time, dt, parts_left);
   }
   for (const BodyHand& hand : hands_) obstacles_[hand.obstacle].rest.wake();
   if (may_rest()) let_sleep(dt, gravity, cloths);

@@ -105,8 +105,10 @@ class Colliders {
   /// Dynamic balls and bodies that lie still on nothing but what does so too fall asleep before: until
   /// something comes, moves or is taken away near them they are left where they are, at rest, to the bit, and
   /// stand still for whoever meets them. `cloths` are those that they may lie on or under; of no use unless
-  /// may_rest().
-  void begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths = {});
+  /// may_rest(). What was told to go somewhere gets there in so many such steps, the last part of a step that
+  /// is made in parts.
+  void begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths = {},
+                  int parts_left = 1);
   /// A dynamic ball or body sleeps, or may fall asleep when the next step begins.
   bool may_rest() const;
   /// All that sleeps wakes.

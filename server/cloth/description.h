@@ -267,6 +267,10 @@ struct XpbdDescription {
 };
 using IntegratorDescription =
     std::variant<SymplecticEulerDescription, BackwardEulerDescription, Bdf2Description, XpbdDescription>;
+inline bool is_implicit(const IntegratorDescription& integrator) {
+  return std::holds_alternative<BackwardEulerDescription>(integrator) ||
+         std::holds_alternative<Bdf2Description>(integrator);
+}
 
 struct SimulationDescription {
   std::vector<ClothDescription> cloths;

@@ -150,42 +150,51 @@ bool Simulation<Real>::release(GrabId id) {
 
 template <class Real>
 void Simulation<Real>::step() {
-  const double dt = description_.time_step;
   const auto begin = Clock::now();
   profile_ = StepProfile{};
+  guard_events_.clear();
 
   for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
   profile_.levels = seconds(Clock::now() - begin);
 
-  colliders_.begin_step(time(), dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>());
+  const int parts = layers_ ? layers_->parts(cloths_, description_.time_step) : 1;
+  const double dt = description_.time_step / parts, start = time();
+  last_advance_.assign(cloths_.size(), AdvanceReport{});
+  for (int part = 0; part < parts; ++part) step_part(start + part * dt, dt, parts - part);
+  ++steps_;
+
+  for (const AdvanceReport& report : last_advance_) {
+    profile_.forces += report.forces_seconds;
+    profile_.contact += report.contact_seconds;
+    profile_.check += report.check_seconds;
+  }
+  profile_.total = seconds(Clock::now() - begin);
+}
+
+template <class Real>
+void Simulation<Real>::step_part(double time, double dt, int parts_left) {
+  colliders_.begin_step(time, dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>(),
+                        parts_left);
   meet_bodies(dt);
   if (cloths_.size() > 1) share_balls(dt);
-  settle_cloths(dt);
+  settle_cloths(time, dt);
   double layers = 0;  // s
   if (layers_) {
     const auto search = Clock::now();
     layers_->begin_step(cloths_, dt);
     layers += seconds(Clock::now() - search);
   }
-  advance_cloths(dt);
+  advance_cloths(time, dt);
   if (layers_) {
     const auto net = Clock::now();
     layers_->end_step(cloths_, dt);
     layers += seconds(Clock::now() - net);
   }
-  profile_.contact = layers;
-  for (std::size_t i = 0; i < cloths_.size(); ++i) {
-    cloths_[i].push_balls(colliders_);
-    profile_.forces += last_advance_[i].forces_seconds;
-    profile_.contact += last_advance_[i].contact_seconds;
-    profile_.check += last_advance_[i].check_seconds;
-  }
+  profile_.contact += layers;
+  for (const Cloth<Real>& cloth : cloths_) cloth.push_balls(colliders_);
   if (colliders_.end_step()) meet_bodies(dt);  // what the cloths press into others stays outside
   colliders_.watch(dt);
-  ++steps_;
-
   collect_guard_events();
-  profile_.total = seconds(Clock::now() - begin);
 }
 
 template <class Real>
@@ -227,7 +236,7 @@ void Simulation<Real>::for_each_cloth(const Work& work) {
 }
 
 template <class Real>
-void Simulation<Real>::settle_cloths(double dt) {
+void Simulation<Real>::settle_cloths(double time, double dt) {
   const std::vector<Solid>& solids = colliders_.solids();
   std::vector<char> unsettled(cloths_.size());
   std::transform(cloths_.begin(), cloths_.end(), unsettled.begin(),
@@ -235,37 +244,35 @@ void Simulation<Real>::settle_cloths(double dt) {
   if (std::none_of(unsettled.begin(), unsettled.end(), [](char each) { return each != 0; })) return;
   for_each_cloth([&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time(), dt);
+    if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time, dt);
   });
 }
 
 template <class Real>
-void Simulation<Real>::advance_cloths(double dt) {
+void Simulation<Real>::advance_cloths(double time, double dt) {
   for_each_cloth([&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    last_advance_[cloth] = cloths_[cloth].advance(colliders_.solids(), air_, time(), dt);
+    last_advance_[cloth] += cloths_[cloth].advance(colliders_.solids(), air_, time, dt);
   });
 }
 
 template <class Real>
 void Simulation<Real>::collect_guard_events() {
-  guard_events_.clear();
+  const std::uint64_t step = steps_ + 1;  // the one in hand
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     for (GuardEvent& event : cloths_[i].take_guard_events()) {
       event.cloth = i;
-      event.step = steps_;
+      event.step = step;
       guard_events_.push_back(event);
     }
     if (layers_ && layers_->crowded(i)) {
       guard_events_.push_back(
-          {.action = GuardEvent::Action::let_through, .fault = Fault::crowded, .cloth = i, .step = steps_});
+          {.action = GuardEvent::Action::let_through, .fault = Fault::crowded, .cloth = i, .step = step});
     }
   }
   for (const ColliderId ball : colliders_.take_stopped()) {
-    guard_events_.push_back({.action = GuardEvent::Action::ball_stopped,
-                             .fault = Fault::not_finite,
-                             .ball = ball,
-                             .step = steps_});
+    guard_events_.push_back(
+        {.action = GuardEvent::Action::ball_stopped, .fault = Fault::not_finite, .ball = ball, .step = step});
   }
 }
 

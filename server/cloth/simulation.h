@@ -121,6 +121,8 @@ class Simulation {
   void reset();
 
  private:
+  /// The step, or the first of so many parts that are left of it (Layers::parts), from `time` on.
+  void step_part(double time, double dt, int parts_left);
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
   void compose(const std::vector<EffectDescription>& effects);
   /// Contact between cloths begins anew, if there is any.
@@ -136,9 +138,9 @@ class Simulation {
   void for_each_cloth(const Work& work);
   /// Those that have to settle do so before contact between cloths looks where they are: what the step then
   /// keeps apart would else be held in a shape that is not settled.
-  void settle_cloths(double dt);
+  void settle_cloths(double time, double dt);
   /// All cloths through the step, as it is for each of them alone.
-  void advance_cloths(double dt);
+  void advance_cloths(double time, double dt);
   void collect_guard_events();
 
   SimulationDescription description_;

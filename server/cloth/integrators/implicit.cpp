@@ -92,6 +92,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
   if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid);
+  if (memory_->h != h) memory_->second_order.fill(Real(0));  // BDF2's formula is for equal steps
+  memory_->h = h;
   const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
   if (state_->h != h || tore) {
     state_->h = h;

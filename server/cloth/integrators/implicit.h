@@ -55,6 +55,7 @@ class Implicit final : public Integrator<Real> {
 
     Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
     VectorField<Real> last_move, last_velocity;
+    double h = 0;  ///< s, of the last substep
     ContactConstraints<Real> contacts;
 
     /// The node's next substep is one of backward Euler.

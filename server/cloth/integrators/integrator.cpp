@@ -7,6 +7,17 @@
 #include "cloth/integrators/xpbd.h"
 
 namespace weft {
+
+AdvanceReport& AdvanceReport::operator+=(const AdvanceReport& next) {
+  substeps += next.substeps;
+  nodes_in_contact = next.nodes_in_contact;
+  linear_iterations += next.linear_iterations;
+  forces_seconds += next.forces_seconds;
+  contact_seconds += next.contact_seconds;
+  check_seconds += next.check_seconds;
+  sound = sound && next.sound;
+  return *this;
+}
 namespace {
 
 /// Which class follows which description.

@@ -77,6 +77,9 @@ struct AdvanceReport {
   double contact_seconds = 0;  ///< wall time
   double check_seconds = 0;    ///< wall time of the step guard
   bool sound = true;           ///< false if no next state was found: the particles' is not to be used
+
+  /// What this and the advance after it did together.
+  AdvanceReport& operator+=(const AdvanceReport& next);
 };
 
 /// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods. It

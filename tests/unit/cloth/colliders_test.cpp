@@ -177,6 +177,21 @@ TEST(Colliders, ACommandTakesABallOffItsPath) {
   EXPECT_EQ(colliders.balls()[1].position, Vec3(0, 0, 3));
 }
 
+// In a step that is made in parts it goes at one speed, 4 m in a step.
+TEST(Colliders, AMovedBallGetsThereWithTheStepsLastPart) {
+  Colliders colliders({resting_ball({0, 0, 0})});
+  colliders.move(1, {4, 0, 0});
+  for (int part = 0; part < 4; ++part) {
+    colliders.begin_step(part * kDt / 4, kDt / 4, {0, 0, 0}, {}, 4 - part);
+    EXPECT_EQ(colliders.balls()[0].position, Vec3(part + 1, 0, 0));
+    EXPECT_EQ(colliders.balls()[0].velocity, Vec3(4 / kDt, 0, 0));
+    colliders.end_step();
+  }
+  colliders.begin_step(kDt, kDt / 4, {0, 0, 0}, {}, 4);
+  EXPECT_EQ(colliders.balls()[0].position, Vec3(4, 0, 0));
+  EXPECT_EQ(colliders.balls()[0].velocity, Vec3(0, 0, 0));
+}
+
 TEST(Colliders, ADynamicBallThatIsMovedIsHeldThere) {
   Colliders colliders({resting_ball({0, 0, 0})});
   colliders.throw_ball(1, {1, 1, 1});

@@ -90,6 +90,23 @@ TEST(Obstacles, MovedGoThereInAStepAndStay) {
   EXPECT_TRUE(colliders.obstacles()[0].mobile);
 }
 
+// In a step that is made in parts, at one speed and spin: as in a step of one part.
+TEST(Obstacles, MovedGetThereWithTheStepsLastPart) {
+  Colliders colliders({}, {bar()});
+  EXPECT_TRUE(colliders.move_obstacle(0, {{0, 1, 0}, Quaternion(2, 0, 0, 0)}));  // from a quarter about z
+  for (int part = 0; part < 4; ++part) {
+    colliders.begin_step(0.125 * part, 0.125, {0, 0, 0}, {}, 4 - part);
+    EXPECT_LT((colliders.solids()[0].position - Vec3(0, 0.25 * (part + 1), 0)).norm(), 1e-12);
+    EXPECT_LT((colliders.solids()[0].velocity - Vec3(0, 2, 0)).norm(), 1e-12);
+    EXPECT_LT((colliders.solids()[0].spin - Vec3(0, 0, -pi)).norm(), 1e-12);
+    colliders.end_step();
+  }
+  EXPECT_TRUE(colliders.solids()[0].rotation.isIdentity(1e-12));
+  colliders.begin_step(0.5, 0.125, {0, 0, 0}, {}, 4);
+  EXPECT_EQ(colliders.solids()[0].position, Vec3(0, 1, 0));
+  EXPECT_FALSE(colliders.solids()[0].turns());
+}
+
 TEST(Obstacles, PlanesMoveButKeepTheirNormal) {
   ObstacleDescription wall;
   wall.shape = PlaneDescription{.normal = {1, 0, 0}};
