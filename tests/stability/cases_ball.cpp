@@ -142,11 +142,11 @@ Watch watch_pinched(double most, double from, double until) {
 }
 
 /// A ball comes down onto the sheet on something fixed at 1 m/s, 5 cm farther than there is room for it,
-/// stays for half a second, in whose second half what it presses is at rest, and goes. Where solids overlap
+/// stays for a second, in whose second half what it presses is at rest, and goes. Where solids overlap
 /// no node can be outside of both: held to is the one it is less deep in, which it can give way to.
 Case pinched(std::string name, std::string what, std::function<void(SimulationDescription&)> add_fixed,
              double top) {
-  constexpr double kRadius = 0.3, kHeight = 0.5, kPast = 0.05, kDown = 2, kStay = 0.5, kDepth = 1e-3;
+  constexpr double kRadius = 0.3, kHeight = 0.5, kPast = 0.05, kDown = 2, kStay = 1, kDepth = 1e-3;
   const auto scene = [=](const Setup& setup) {
     SimulationDescription made = level_sheet(setup, {});
     made.cloths[0].position = {0, top + 0.05, 0};
