@@ -222,11 +222,10 @@ void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorFi
 
 template <class Real>
 const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& particles,
-                                                   const std::vector<Solid>& solids, const Substep& substep) {
+                                                   const std::vector<Solid>& solids, const Substep& substep,
+                                                   bool (*sought)(const Solid&)) {
   arrivals_.clear();
-  if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); })) {
-    return arrivals_;
-  }
+  if (std::none_of(solids.begin(), solids.end(), sought)) return arrivals_;
   const double h = substep.seconds;
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
   const double reach =
@@ -236,7 +235,7 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
       broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach}),
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
-        if (!solid.yields()) return std::uint32_t{0};
+        if (!sought(solid)) return std::uint32_t{0};
         const auto* sphere = std::get_if<Sphere>(&solid.shape);
         if (sphere == nullptr) return rows_near_way(block, solid, substep, reach);
         // The kernel looks at the way back: from where node and ball will be to where they are.
@@ -249,7 +248,7 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 place = particles.position_at(row, col);
         for (std::size_t i = 0; i < solids.size(); ++i) {
-          if (!solids[i].yields()) continue;
+          if (!sought(solids[i])) continue;
           // As seen from the solid where it will be.
           Vec3 begin = place + solids[i].at(substep.to) - solids[i].at(substep.from);
           if (solids[i].turns()) begin = place + solids[i].move_of(place, substep.from, substep.to);

@@ -41,7 +41,7 @@ struct Touch {
   }
 };
 
-/// A node on its way into a solid that yields.
+/// A node on its way into a solid.
 struct Arrival {
   Touch touch;
   std::size_t solid = 0;  ///< index
@@ -82,10 +82,11 @@ class Contact {
   /// Valid until the next call.
   const std::vector<Touch>& inside(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
-  /// Before a substep: the free nodes that will pass the surface of a solid that yields if all go on as they
-  /// go. Valid until the next call.
-  const std::vector<Arrival>& foresee(const Particles<Real>& particles, const std::vector<Solid>& solids,
-                                      const Substep& substep);
+  /// Before a substep: the free nodes that will pass the surface of a solid that is `sought`, or that yields,
+  /// if all go on as they go. Valid until the next call.
+  const std::vector<Arrival>& foresee(
+      const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
+      bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
 
   /// Before resolve: these lay on a solid when the substep began, and neither the ways they had nor a
   /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off

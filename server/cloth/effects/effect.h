@@ -71,6 +71,8 @@ class Effect {
   /// Whether its force hardly changes from one of many substeps to the next and takes a while to find:
   /// explicit methods may give what it does in several at one blow. It damps, if anything.
   virtual bool slow() const { return false; }
+  /// By which it blows the sheet up, Pa.
+  virtual double pressure() const { return 0; }
   /// Whether add_damping writes blocks.
   virtual bool needs_blocks() const { return false; }
 };

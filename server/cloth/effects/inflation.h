@@ -24,6 +24,7 @@ class Inflation final : public Effect<Real> {
   const char* name() const override { return InflationEffect::kName; }
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
+  double pressure() const override { return parameters_.pressure; }
 
  private:
   InflationEffect parameters_;

@@ -1,6 +1,7 @@
 #include "cloth/integrators/integrator.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
@@ -66,6 +67,12 @@ void Forces<Real>::sum_slow(const Particles<Real>& particles, VectorField<Real>&
 template <class Real>
 bool Forces<Real>::any_slow() const {
   return std::any_of(effects->begin(), effects->end(), [](const auto& effect) { return effect->slow(); });
+}
+
+template <class Real>
+double Forces<Real>::pressure() const {
+  return std::accumulate(effects->begin(), effects->end(), 0.0,
+                         [](double sum, const auto& effect) { return sum + effect->pressure(); });
 }
 
 template <class Real>

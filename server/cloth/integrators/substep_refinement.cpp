@@ -13,8 +13,9 @@ namespace {
 constexpr int kHold = 60;
 constexpr int kMost = 4;
 constexpr double kStretch = 0.05, kTooLate = 0.5;
-/// The way of a node in a substep of a stretched sheet, and of what strikes it; of a spring's length.
-constexpr double kWay = 0.5, kStroke = 0.1;
+/// The way of a node in a substep, of a spring's length: in a stretched sheet, against what yields to it, and
+/// against what stands firm.
+constexpr double kWay = 0.5, kStroke = 0.1, kFirmStroke = 0.15;
 
 /// For a quantity that falls with the substeps to be so small.
 int times(double quantity, double most) {
@@ -25,20 +26,25 @@ bool is_structural(const SpringFamily& family) {  // those join neighbours
   return family.rows + std::abs(family.cols) == 1;
 }
 
-/// By how much more than its stiffness says substeps of h seconds stretch a spring, as a share of what that
-/// says: k h^2 (1/m_i + 1/m_j), in the middle of the sheet, and at its border, where k and m are halved.
+/// What substeps of h seconds stretch a spring by beyond what its stiffness says, m/N: h^2 (1/m_i + 1/m_j),
+/// in the middle of the sheet. At its border, where the stiffness is halved, so is the mass.
+template <class Real>
+double yielding(const Particles<Real>& particles, double h) {
+  const Grid& grid = particles.grid();
+  return h * h * 2 / double(particles.mass.at(grid.rows / 2, grid.cols / 2));
+}
+
+/// The same as a share of what its stiffness says.
 template <class Real>
 double excess(const Particles<Real>& particles, const SpringFamily& family, double h) {
-  const Grid& grid = particles.grid();
-  return family.stiffness * h * h * 2 / double(particles.mass.at(grid.rows / 2, grid.cols / 2));
+  return family.stiffness * yielding(particles, h);
 }
 
 /// What the springs ask for that are stretched in a step that begins, the one before having had so many times
 /// the substeps of h seconds.
 template <class Real>
-int asked_by_stretch(const Particles<Real>& particles, const Springs<Real>& springs, double h, int before) {
-  const kernels::StateExtremes<Real> most = kernels::state_extremes(
-      particles.grid(), kernels::components(particles.position), kernels::components(particles.velocity));
+int asked_by_stretch(const Particles<Real>& particles, const kernels::StateExtremes<Real>& most,
+                     const Springs<Real>& springs, double h, int before) {
   const double way = h * std::sqrt(double(most.speed));
   int asked = 1;
   for (const SpringFamily& family : springs.families()) {
@@ -57,31 +63,69 @@ int asked_by_stretch(const Particles<Real>& particles, const Springs<Real>& spri
   return asked;
 }
 
-/// What bodies ask for that strike the cloth in the step.
+/// What a pressure asks for that blows the sheet up.
 template <class Real>
-int asked_by_strokes(const Particles<Real>& particles, const Springs<Real>& springs, Contact<Real>& contact,
-                     const std::vector<Solid>& solids, double h, double dt) {
-  double fastest = 0;  // m/s, head on
-  for (const Arrival& arrival : contact.foresee(particles, solids, {0, 1, dt})) {
-    fastest = std::max(fastest, arrival.approach);
+int asked_by_pressure(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
+  const double pressure = std::abs(forces.pressure());
+  if (pressure == 0) return 1;
+  const double needed = pressure * forces.context.cloth->size.maxCoeff();  // N/m
+  int asked = 1;
+  for (const SpringFamily& family : forces.springs->families()) {
+    if (!is_structural(family)) continue;
+    const double most = 1 / needed - 1 / family.stiffness;  // m/N; 0 or less where it bursts anyhow
+    asked = std::max(asked, most > 0 ? times(std::sqrt(yielding(particles, h) / most), 1) : kMost);
   }
-  double shortest = std::numeric_limits<double>::infinity();
+  return asked;
+}
+
+/// Cloth may be drawn round it. By a wall it is struck all over, and stretched by nothing.
+bool has_an_end(const Solid& solid) { return !std::holds_alternative<HalfSpace>(solid.shape); }
+
+/// No point of it moves farther in the step, m.
+double farthest(const Solid& solid) {
+  return (solid.position - solid.start).norm() + solid.turn.norm() * outer_radius(solid.shape);
+}
+
+/// What solids ask for that strike the cloth, or that it strikes, in the step, its nodes having this `speed`
+/// at most, m/s.
+template <class Real>
+int asked_by_strokes(const Particles<Real>& particles, double speed, const Springs<Real>& springs,
+                     Contact<Real>& contact, const std::vector<Solid>& solids, double h, double dt) {
+  double shortest = std::numeric_limits<double>::infinity();  // of springs that substeps soften
   for (const SpringFamily& family : springs.families()) {
-    if (is_structural(family)) shortest = std::min(shortest, family.rest_length);
+    if (is_structural(family) && excess(particles, family, h) > kStretch)
+      shortest = std::min(shortest, family.rest_length);
   }
-  return times(h * fastest, kStroke * shortest);
+  if (!std::isfinite(shortest)) return 1;
+  double fastest = 0;  // m/s, of a solid
+  for (const Solid& solid : solids) {
+    if (has_an_end(solid)) fastest = std::max(fastest, farthest(solid) / dt);
+  }
+  if (h * (speed + fastest) <= kStroke * shortest) return 1;  // spares what is slow the search
+  int asked = 1;
+  for (const Arrival& arrival : contact.foresee(particles, solids, {0, 1, dt}, has_an_end)) {
+    const double most = solids[arrival.solid].yields() ? kStroke : kFirmStroke;
+    asked = std::max(asked, times(h * arrival.approach, most * shortest));
+  }
+  return asked;
 }
 
 }  // namespace
 
 template <class Real>
-int SubstepRefinement<Real>::begin_step(const Particles<Real>& particles, const Springs<Real>& springs,
+int SubstepRefinement<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces,
                                         Contact<Real>* contact, const std::vector<Solid>& solids, double h,
                                         double dt) {
-  int asked = 1;
-  if (!springs.torn()) asked = asked_by_stretch(particles, springs, h, times_);  // what is cut is no stretch
+  const Springs<Real>& springs = *forces.springs;
+  const kernels::StateExtremes<Real> most = kernels::state_extremes(
+      particles.grid(), kernels::components(particles.position), kernels::components(particles.velocity));
+  int asked = asked_by_pressure(particles, forces, h);
+  if (!springs.torn()) {  // what is cut is no stretch
+    asked = std::max(asked, asked_by_stretch(particles, most, springs, h, times_));
+  }
   if (contact != nullptr) {
-    asked = std::max(asked, asked_by_strokes(particles, springs, *contact, solids, h, dt));
+    asked = std::max(
+        asked, asked_by_strokes(particles, std::sqrt(double(most.speed)), springs, *contact, solids, h, dt));
   }
   if (asked >= times_) {
     times_ = asked;

@@ -46,7 +46,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
                                   std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   const int described = substeps(description_, dt), before = times_;
-  times_ = refinement_.begin_step(particles, *forces.springs, contact, solids, dt / described, dt);
+  times_ = refinement_.begin_step(particles, forces, contact, solids, dt / described, dt);
   report.substeps = described * times_;
   const double h = dt / report.substeps;
   prepare(particles, forces, h);

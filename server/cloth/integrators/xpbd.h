@@ -28,7 +28,7 @@ int substeps(const XpbdDescription& description, double dt);
 /// every substep that a longer one answers with ever larger multipliers (a flat sheet of half a metre had
 /// 1e10 J).
 ///
-/// A sheet in violent motion has up to 4 times the substeps (substep_refinement.h).
+/// A sheet in violent motion, struck, or blown up has up to 4 times the substeps (substep_refinement.h).
 ///
 /// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
 /// plate's stiffest modes are much faster than the substeps.

@@ -49,10 +49,11 @@ struct Rig {
     cloth.discretization = discretization;
     if (lists<PlateBendingEffect>(listed)) plate.emplace(material.rigidity, size, particles.inverse_mass);
   }
+  Forces<Real> forces(double time) const {
+    return {&springs, &effects, {&cloth, &wind, time}, nullptr, plate ? &*plate : nullptr};
+  }
   AdvanceReport advance(double time, double dt) {
-    return integrator->advance(
-        particles, {&springs, &effects, {&cloth, &wind, time}, nullptr, plate ? &*plate : nullptr}, nullptr,
-        solids, time, dt);
+    return integrator->advance(particles, forces(time), nullptr, solids, time, dt);
   }
 };
 

@@ -1,4 +1,4 @@
-// When XPBD's steps have more substeps than described: stretched and fast, struck, tangled.
+// When XPBD's steps have more substeps than described: stretched and fast, struck, blown up, tangled.
 #include "cloth/integrators/substep_refinement.h"
 
 #include <gtest/gtest.h>
@@ -71,24 +71,41 @@ TEST(SubstepRefinement, FallBackOneByOneEachAfterSixtyCalmSteps) {
 
 // --- Struck ---
 
-/// Substeps of the step in which a ball of 0.1 m sets out at so many m/s downwards, 0.1 m over the middle of
-/// a sheet of 2 m at level 4.
-int substeps_when_struck(double speed, BallDescription::Motion motion) {
+/// A level sheet of 2 m at level 4.
+SimulationDescription level_sheet() {
   SimulationDescription scene;
   ClothDescription cloth;
   cloth.min_level = cloth.max_level = cloth.initial_level = 4;
   cloth.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
   scene.cloths = {cloth};
+  scene.integrator = XpbdDescription{};
+  return scene;
+}
+
+int substeps_of_first_step(const SimulationDescription& scene) {
+  Simulation<float> simulation(scene);
+  simulation.step();
+  return simulation.last_advance(0).substeps;
+}
+
+/// Where a ball of 0.1 m sets out at so many m/s downwards, 0.1 m over the middle of the sheet.
+int substeps_when_struck(double speed, BallDescription::Motion motion) {
+  SimulationDescription scene = level_sheet();
   BallDescription ball;
   ball.position = {0, 0.2, 0};
   ball.radius = 0.1;
   ball.velocity = {0, -speed, 0};
   ball.motion = motion;
   scene.balls = {ball};
-  scene.integrator = XpbdDescription{};
-  Simulation<float> simulation(scene);
-  simulation.step();
-  return simulation.last_advance(0).substeps;
+  return substeps_of_first_step(scene);
+}
+
+/// Where the sheet falls at so many m/s onto this, whose top is 0.1 m below it.
+int substeps_when_thrown(double speed, const ObstacleDescription& onto) {
+  SimulationDescription scene = level_sheet();
+  scene.cloths[0].velocity = {0, -speed, 0};
+  scene.obstacles = {onto};
+  return substeps_of_first_step(scene);
 }
 
 TEST(SubstepRefinement, AStrokeGoesNoDeeperThanATenthOfASpring) {
@@ -101,11 +118,47 @@ TEST(SubstepRefinement, AStrokeGoesNoDeeperThanATenthOfASpring) {
   EXPECT_EQ(substeps_when_struck(1000, Motion::dynamic), 160);
 }
 
-TEST(SubstepRefinement, WhatDoesNotStrikeOrDoesNotYieldAsksForNothing) {
+TEST(SubstepRefinement, AStrokeOfWhatStandsFirmGoesNoDeeperThan15HundredthsOfASpring) {
+  // 45 m/s.
+  EXPECT_EQ(substeps_when_struck(44.7, BallDescription::Motion::kinematic), 40);
+  EXPECT_EQ(substeps_when_struck(45.3, BallDescription::Motion::kinematic), 80);
+  const ObstacleDescription box{.shape = BoxDescription{{0.3, 0.2, 0.3}}, .position = {0, -0.2, 0}};
+  EXPECT_EQ(substeps_when_thrown(44.7, box), 40);
+  EXPECT_EQ(substeps_when_thrown(45.3, box), 80);
+}
+
+TEST(SubstepRefinement, WhatDoesNotStrikeAsksForNothingNorDoAWallAndSpringsThatAreSoftThemselves) {
   using Motion = BallDescription::Motion;
   EXPECT_EQ(substeps_when_struck(-1000, Motion::dynamic), 40);
   EXPECT_EQ(substeps_when_struck(5, Motion::dynamic), 40);  // is not there yet after the step
-  EXPECT_EQ(substeps_when_struck(1000, Motion::kinematic), 40);
+  EXPECT_EQ(substeps_when_thrown(1000, {.shape = PlaneDescription{}, .position = {0, -0.1, 0}}), 40);
+  // Springs of 200 N/m have 4 % added by substeps between nodes of 0.4 kg / 256: 2 / 2400^2 / 0.00156 m/N.
+  SimulationDescription scene = level_sheet();
+  scene.cloths[0].velocity = {0, -1000, 0};
+  scene.obstacles = {{.shape = BoxDescription{{0.3, 0.2, 0.3}}, .position = {0, -0.2, 0}}};
+  scene.cloths[0].material.structural = 200;
+  EXPECT_EQ(substeps_of_first_step(scene), 40);
+}
+
+// --- Blown up ---
+
+TEST(SubstepRefinement, AreSoManyThatAPressedSheetBearsTwiceThePressure) {
+  const auto substeps_at = [](double pressure) {
+    Material material = without_springs();
+    material.structural = 5000;
+    return sheet_rig<double>(9, 9, XpbdDescription{10}, {InflationEffect{pressure}}, material)
+        .advance(0, kFrame)
+        .substeps;
+  };
+  // With n times the substeps of 1/600 s between masses of 0.4 kg / 64 springs are no stiffer than
+  // 1 / (1/5000 + 8.89e-4 / n^2) N/m, which is to be the pressure times 2 m.
+  EXPECT_EQ(substeps_at(459), 10);
+  EXPECT_EQ(substeps_at(460), 20);
+  EXPECT_EQ(substeps_at(-460), 20);
+  EXPECT_EQ(substeps_at(1184), 20);
+  EXPECT_EQ(substeps_at(1185), 30);
+  EXPECT_EQ(substeps_at(1674), 40);
+  EXPECT_EQ(substeps_at(1e6), 40);  // which bursts the springs by themselves
 }
 
 // --- Tangled ---
@@ -125,11 +178,11 @@ int times_after(int steps, double stretch) {
   SubstepRefinement<double> refinement;
   Rig<double> violent = sheet(0.06);
   violent.particles.velocity.z.at(4, 4) = 1e4;
-  EXPECT_EQ(refinement.begin_step(violent.particles, violent.springs, nullptr, {}, kSubstep, kFrame), 4);
+  EXPECT_EQ(refinement.begin_step(violent.particles, violent.forces(0), nullptr, {}, kSubstep, kFrame), 4);
   const Rig<double> calm = sheet(stretch);
   int times = 4;
   for (int step = 0; step < steps; ++step) {
-    times = refinement.begin_step(calm.particles, calm.springs, nullptr, {}, kSubstep, kFrame);
+    times = refinement.begin_step(calm.particles, calm.forces(0), nullptr, {}, kSubstep, kFrame);
   }
   return times;
 }
