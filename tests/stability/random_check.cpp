@@ -122,6 +122,22 @@ double input(const SimulationDescription& scene) {
   return work;
 }
 
+/// Whether a pressure is more than a sheet's springs can balance (inflation.h). In air that follows it, it
+/// then grows faster the larger it is, beyond all bounds within a finite time: the guard has to hold it.
+bool bursts(const SimulationDescription& scene) {
+  double pressure = 0;
+  bool limited = false;
+  for (const EffectDescription& effect : scene.effects) {
+    const auto* inflation = std::get_if<InflationEffect>(&effect);
+    if (inflation && !inflation->volume) pressure += inflation->pressure;
+    limited = limited || std::holds_alternative<StrainLimitEffect>(effect);
+  }
+  return std::any_of(scene.cloths.begin(), scene.cloths.end(), [&](const ClothDescription& cloth) {
+    const double stiffening = limited ? cloth.material.limit.stiffening : 1;
+    return std::abs(pressure) * cloth.size.maxCoeff() > 2 * cloth.material.structural * stiffening;
+  });
+}
+
 /// What a step of symplectic Euler brings in by its rounding, J. Each substep leaves every coordinate off by
 /// up to half a unit of its last place, evenly spread, which has the variance unit^2 / 12: of so much at
 /// either end a spring of stiffness k gets k unit^2 / 12 on average, and nothing takes it away.
@@ -221,11 +237,13 @@ std::optional<Failure> check(const SimulationDescription& scene) {
   Commands commands(simulation);
   double held = 0;  // J, brought into the springs by merges
   const long steps = std::lround(kSeconds / scene.time_step);
+  const bool unbounded = bursts(scene);
   for (long step = 0; step < steps; ++step) {
     const bool switched = commands.give(step);
     simulation.step();
     const std::string when = " after step " + std::to_string(step + 1);
     if (!simulation.healthy()) return Failure{Failure::Kind::not_finite, "not finite" + when};
+    if (unbounded) continue;
     if (const Complaint guarded = guard_complaint(simulation)) {
       return Failure{Failure::Kind::guard, *guarded + when};
     }
