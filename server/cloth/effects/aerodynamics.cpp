@@ -50,17 +50,28 @@ void Aerodynamics<Real>::add_forces(const Particles<Real>& particles, const Effe
 }
 
 template <class Real>
-double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
-                                            const EffectContext& context) const {
-  const Real flow = in_air<Real>(context, [&](const auto& air) {
+double Aerodynamics<Real>::max_flow(const Particles<Real>& particles, const EffectContext& context) const {
+  return in_air<Real>(context, [&](const auto& air) {
     Real most = 0;
     for_each_whole_part(particles.grid(), context, [&](const Grid& faces, std::size_t n) {
       most = std::max(most, kernels::max_air_flow(faces, kernels::components(particles.position) + n,
                                                   kernels::components(particles.velocity) + n, from(air, n)));
     });
-    return most;
+    return double(most);
   });
-  return double(flow) * rate_per_flow(particles);
+}
+
+template <class Real>
+double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
+                                            const EffectContext& context) const {
+  return max_flow(particles, context) * rate_per_flow(particles);
+}
+
+template <class Real>
+double Aerodynamics<Real>::pressure(const Particles<Real>& particles, const EffectContext& context) const {
+  const double speed = max_flow(particles, context) * particles.grid().cells() / context.cloth->size.prod();
+  return 0.5 * parameters_.air_density * std::max(parameters_.drag, parameters_.lift_or_drag()) * speed *
+         speed;
 }
 
 template <class Real>

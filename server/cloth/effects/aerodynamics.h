@@ -20,11 +20,15 @@ class Aerodynamics final : public Effect<Real> {
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
   void add_damping(const Particles<Real>& particles, const EffectContext& context,
                    const DampingMatrix<Real>& damping) const override;
+  /// By the cells' area at rest.
+  double pressure(const Particles<Real>& particles, const EffectContext& context) const override;
   bool feels_wind() const override { return true; }
   bool slow() const override { return true; }
   bool needs_blocks() const override { return true; }
 
  private:
+  /// The largest |w.A| of a face, m3/s.
+  double max_flow(const Particles<Real>& particles, const EffectContext& context) const;
   /// Damping rate, 1/s, that a flow |w.A| of 1 m3/s through every face gives a node.
   double rate_per_flow(const Particles<Real>& particles) const;
 

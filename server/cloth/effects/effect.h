@@ -66,13 +66,13 @@ class Effect {
   /// for forces without v.
   virtual void add_damping(const Particles<Real>& particles, const EffectContext& context,
                            const DampingMatrix<Real>& damping) const;
+  /// The largest with which it presses on a face, Pa.
+  virtual double pressure(const Particles<Real>&, const EffectContext&) const { return 0; }
   /// Whether it asks for the air's velocity at the nodes, if that differs from node to node.
   virtual bool feels_wind() const { return false; }
   /// Whether its force hardly changes from one of many substeps to the next and takes a while to find:
   /// explicit methods may give what it does in several at one blow. It damps, if anything.
   virtual bool slow() const { return false; }
-  /// By which it blows the sheet up, Pa.
-  virtual double pressure() const { return 0; }
   /// Whether add_damping writes blocks.
   virtual bool needs_blocks() const { return false; }
 };

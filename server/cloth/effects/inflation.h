@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "cloth/effects/effect.h"
 
 namespace weft {
@@ -24,7 +26,9 @@ class Inflation final : public Effect<Real> {
   const char* name() const override { return InflationEffect::kName; }
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
-  double pressure() const override { return parameters_.pressure; }
+  double pressure(const Particles<Real>&, const EffectContext&) const override {
+    return std::abs(parameters_.pressure);
+  }
 
  private:
   InflationEffect parameters_;

@@ -70,9 +70,10 @@ bool Forces<Real>::any_slow() const {
 }
 
 template <class Real>
-double Forces<Real>::pressure() const {
-  return std::accumulate(effects->begin(), effects->end(), 0.0,
-                         [](double sum, const auto& effect) { return sum + effect->pressure(); });
+double Forces<Real>::pressure(const Particles<Real>& particles) const {
+  return std::accumulate(effects->begin(), effects->end(), 0.0, [&](double sum, const auto& effect) {
+    return sum + effect->pressure(particles, context);
+  });
 }
 
 template <class Real>

@@ -61,8 +61,9 @@ struct Forces {
   /// The scene's effects alone; `force` is overwritten, N.
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
   bool any_slow() const;
-  double pressure() const;  ///< by which effects together blow the sheet up, Pa
   DampingRates max_damping_rates(const Particles<Real>& particles) const;
+  /// The largest of all effects together on a face, Pa, at most.
+  double pressure(const Particles<Real>& particles) const;
 
  private:
   /// Springs and plate.

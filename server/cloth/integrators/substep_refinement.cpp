@@ -63,10 +63,10 @@ int asked_by_stretch(const Particles<Real>& particles, const kernels::StateExtre
   return asked;
 }
 
-/// What a pressure asks for that blows the sheet up.
+/// What a pressure on the sheet asks for.
 template <class Real>
 int asked_by_pressure(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
-  const double pressure = std::abs(forces.pressure());
+  const double pressure = forces.pressure(particles);
   if (pressure == 0) return 1;
   const double needed = pressure * forces.context.cloth->size.maxCoeff();  // N/m
   int asked = 1;
