@@ -9,8 +9,8 @@
 namespace weft {
 namespace {
 
-/// Steps until fewer substeps follow more: a second at 60 Hz.
-constexpr int kHold = 60;
+/// Until fewer substeps follow more, s.
+constexpr double kHold = 1;
 constexpr int kMost = 4;
 constexpr double kStretch = 0.05, kTooLate = 0.5;
 /// The way of a node in a substep, of a spring's length: in a stretched sheet, against what yields to it, and
@@ -130,7 +130,7 @@ int SubstepRefinement<Real>::begin_step(const Particles<Real>& particles, const 
   if (asked >= times_) {
     times_ = asked;
     held_ = kHold;
-  } else if (held_-- == 0) {
+  } else if ((held_ -= dt) < -dt / 2) {
     --times_;
     held_ = kHold;
   }

@@ -4,7 +4,7 @@
 namespace weft {
 
 /// How many times as many substeps as usual an XPBD step is made with: more at once where more are needed,
-/// and one time fewer after every 60 steps in which fewer would do; at most 4 times.
+/// and one time fewer after every second in which fewer would do; at most 4 times.
 ///
 /// XPBD passes a load on by a spring or two in a substep (xpbd.h). A sheet in violent motion, as in a gale,
 /// is overstretched by that, and folds over itself where its nodes pass their neighbours within a substep: in
@@ -18,7 +18,8 @@ namespace weft {
 ///    no wave be faster than l / (h sqrt(2)): of springs of length l they stretch 5 and 8 %. Too soft for the
 ///    blow, a sheet thrown at 100 m/s was drawn past a rail of 10 cm mesh by mesh (S53c). Only where substeps
 ///    soften springs by more than 5 %;
-///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L, half of which bursts
+///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L, half of which
+///  bursts
 ///    it (inflation.h): substeps of h leave a spring k between masses m no stiffer than
 ///    1 / (1 / k + 2 h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57).
 ///
@@ -38,7 +39,7 @@ class SubstepRefinement {
 
  private:
   int times_ = 1;
-  int held_ = 0;  ///< steps that are left until that falls
+  double held_ = 0;  ///< s, that are left until that falls
 };
 
 extern template class SubstepRefinement<float>;

@@ -51,7 +51,7 @@ TEST(SubstepRefinement, StayInASheetThatIsNotStretchedOrTooMuchOrHasNothingToStr
   EXPECT_EQ(substeps_when(0.06, 0, material), 10);
 }
 
-TEST(SubstepRefinement, FallBackOneByOneEachAfterSixtyCalmSteps) {
+TEST(SubstepRefinement, FallBackOneByOneEachAfterACalmSecond) {
   Material material = without_springs();
   material.structural = 5000;
   Rig<double> rig = sheet_rig<double>(9, 9, XpbdDescription{10}, {}, material);
