@@ -22,7 +22,8 @@ using Check = std::function<std::optional<Failure>(const SimulationDescription&)
 /// energy than gravity, wind, bodies, pressure, a hand and changes of level by the paper's rules can have
 /// brought in. A cloth of several levels goes up and down through them, a level every 1 + seed % 16 steps; by
 /// its seed a hand pulls it, effects are switched off and on again. A sheet under more pressure than its
-/// springs can balance bursts, beyond any bound, and has the guard hold it: it is only to be finite.
+/// springs can balance may burst, beyond any bound, and has the guard hold it: from then on it is only to be
+/// finite.
 std::optional<Failure> check(const SimulationDescription& scene);
 
 /// The smallest scene found with the same kind of failure, by taking things away from one that has it: balls,

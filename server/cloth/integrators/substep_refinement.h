@@ -18,10 +18,9 @@ namespace weft {
 ///    no wave be faster than l / (h sqrt(2)): of springs of length l they stretch 5 and 8 %. Too soft for the
 ///    blow, a sheet thrown at 100 m/s was drawn past a rail of 10 cm mesh by mesh (S53c). Only where substeps
 ///    soften springs by more than 5 %;
-///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L, half of which
-///  bursts
-///    it (inflation.h): substeps of h leave a spring k between masses m no stiffer than
-///    1 / (1 / k + 2 h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57).
+///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L; half as stiff it
+///    bursts (inflation.h). Substeps of h leave a spring k between masses m no stiffer than 1 / (1 / k + 2
+///    h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57).
 ///
 /// So many substeps are kept while fewer would leave springs stretched by more than 5 % that by their own
 /// stiffness are stretched by less: a tangled sheet's, which bear a good part of its weight each.
