@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -159,6 +160,20 @@ TEST(SubstepRefinement, AreSoManyThatAPressedSheetBearsTwiceThePressure) {
   EXPECT_EQ(substeps_at(1185), 30);
   EXPECT_EQ(substeps_at(1674), 40);
   EXPECT_EQ(substeps_at(1e6), 40);  // which bursts the springs by themselves
+}
+
+TEST(SubstepRefinement, AWindPressesAsMuchAsItsDynamicPressure) {
+  const AerodynamicsEffect air;
+  const auto substeps_in = [&](double pressure) {
+    Material material = without_springs();
+    material.structural = 5000;
+    Rig<double> rig = sheet_rig<double>(9, 9, XpbdDescription{10}, {air}, material);
+    rig.wind.direction = {0, 0, 1};  // head on
+    rig.wind.speed = std::sqrt(2 * pressure / (air.air_density * air.drag));
+    return rig.advance(0, kFrame).substeps;
+  };
+  EXPECT_EQ(substeps_in(459), 10);
+  EXPECT_EQ(substeps_in(460), 20);
 }
 
 // --- Tangled ---
