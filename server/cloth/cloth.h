@@ -102,6 +102,8 @@ class Cloth {
   bool steps_as_asked() const { return !asleep() && !frozen() && guard_.rung() == Rung::own; }
   bool steps_implicitly() const { return is_implicit(guard_.method()); }
   bool has_moving_pins() const { return pins_.moving(); }
+  /// Pins::longest_way, for moving ones alone.
+  double way_of_pins(double begin, double end) const { return pins_.longest_way(begin, end); }
   /// False if it has never been in a good state.
   bool sound() const { return guard_.sound(); }
   const GuardCounters& guard_counters() const { return guard_.counters(); }

@@ -48,8 +48,27 @@ void Pins<Real>::carry(Particles<Real>& particles, double time) const {
   }
 }
 
+template <class Real>
+double Pins<Real>::longest_way(double begin, double end) const {
+  constexpr int kSections = 8;
+  double longest = 0;
+  for (const Path& path : carried_) {
+    double way = 0;
+    Vec3 before = along_path(path.points, begin, path.loops);
+    for (int i = 1; i <= kSections; ++i) {
+      const Vec3 after = along_path(path.points, begin + (end - begin) * i / kSections, path.loops);
+      way += (after - before).norm();
+      before = after;
+    }
+    longest = std::max(longest, way);
+  }
+  return longest;
+}
+
 template bool Pins<float>::begin_step(const Particles<float>&, const std::vector<Solid>&, double, double);
 template bool Pins<double>::begin_step(const Particles<double>&, const std::vector<Solid>&, double, double);
+template double Pins<float>::longest_way(double, double) const;
+template double Pins<double>::longest_way(double, double) const;
 template void Pins<float>::carry(Particles<float>&, double) const;
 template void Pins<double>::carry(Particles<double>&, double) const;
 

@@ -27,6 +27,8 @@ class Pins {
   bool begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time, double dt);
   /// Puts the nodes that move where they are at `time`, s, within the step that has begun.
   void carry(Particles<Real>& particles, double time) const;
+  /// The longest way that a path goes from `begin` to `end`, s, in m; as straight in each eighth of the time.
+  double longest_way(double begin, double end) const;
   /// Calls visit(node, way) for the nodes that move, with their way from `begin` to `end`, s, in m.
   template <class Visit>
   void for_each_way(double begin, double end, Visit visit) const {

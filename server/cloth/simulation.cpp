@@ -5,6 +5,7 @@
 #include "cloth/clock.h"
 #include "cloth/diagnostics.h"
 #include "cloth/parallel.h"
+#include "cloth/step_parts.h"
 
 namespace weft {
 namespace {
@@ -157,7 +158,8 @@ void Simulation<Real>::step() {
   for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
   profile_.levels = seconds(Clock::now() - begin);
 
-  const int parts = layers_ ? layers_->parts(cloths_, description_.time_step) : 1;
+  const bool solid = !colliders_.balls().empty() || !colliders_.obstacles().empty();
+  const int parts = step_parts(cloths_, layers_ != nullptr, solid, time(), description_.time_step);
   const double dt = description_.time_step / parts, start = time();
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   for (int part = 0; part < parts; ++part) step_part(start + part * dt, dt, parts - part);

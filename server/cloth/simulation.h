@@ -121,7 +121,7 @@ class Simulation {
   void reset();
 
  private:
-  /// The step, or the first of so many parts that are left of it (Layers::parts), from `time` on.
+  /// The step, or the first of so many parts that are left of it (step_parts.h), from `time` on.
   void step_part(double time, double dt, int parts_left);
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.
   void compose(const std::vector<EffectDescription>& effects);

@@ -9,7 +9,9 @@
 namespace weft::stability {
 namespace {
 
-void read_springs(const Cloth<float>& cloth, Reading& reading) {
+/// Calls visit(one end, the other, strain) for each structural spring.
+template <class Visit>
+void for_each_spring(const Cloth<float>& cloth, Visit visit) {
   const Particles<float>& state = cloth.particles();
   const Grid& grid = state.grid();
   for (const SpringFamily& family : cloth.springs().families()) {
@@ -17,13 +19,19 @@ void read_springs(const Cloth<float>& cloth, Reading& reading) {
     for (int r = 0; r + family.rows < grid.rows; ++r) {
       for (int c = 0; c + family.cols < grid.cols; ++c) {
         if (cloth.springs().torn(family, r, c)) continue;
-        const Vec3 d = state.position_at(r, c) - state.position_at(r + family.rows, c + family.cols);
-        const double strain = d.norm() / family.rest_length - 1;
-        reading.stretch = std::max(reading.stretch, strain);
-        reading.compression = std::max(reading.compression, -strain);
+        const Vec3 one = state.position_at(r, c);
+        const Vec3 other = state.position_at(r + family.rows, c + family.cols);
+        visit(one, other, (one - other).norm() / family.rest_length - 1);
       }
     }
   }
+}
+
+void read_springs(const Cloth<float>& cloth, Reading& reading) {
+  for_each_spring(cloth, [&](const Vec3&, const Vec3&, double strain) {
+    reading.stretch = std::max(reading.stretch, strain);
+    reading.compression = std::max(reading.compression, -strain);
+  });
 }
 
 void read_nodes(const Cloth<float>& cloth, const std::vector<Solid>& solids, Reading& reading) {
@@ -84,6 +92,19 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
     reading.energy += kinetic(each) - each.body->mass() * simulation.gravity().dot(each.pose.position);
   }
   return reading;
+}
+
+bool is_pierced(const Simulation<float>& simulation, double stretch) {
+  constexpr double kInside = 1e-3;  // m
+  bool pierced = false;
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    for_each_spring(cloth, [&](const Vec3& one, const Vec3& other, double strain) {
+      if (pierced || strain <= stretch) return;
+      for (const Solid& solid : simulation.colliders().solids())
+        pierced = pierced || depth(solid, (one + other) / 2) > kInside;
+    });
+  }
+  return pierced;
 }
 
 Complaint guard_complaint(const Simulation<float>& simulation) {

@@ -66,6 +66,10 @@ class Run {
     result_.stretch_limit = expect_.stretch;
     if (!result_.complaints.empty()) {
       result_.verdict = expected_to_fail() ? Verdict::limit : Verdict::fail;
+    } else if (pierced_) {
+      result_.verdict = Verdict::pierced;
+      result_.complaints.push_back("a solid has come through between nodes: stretch " +
+                                   number(result_.stretch));
     } else if (result_.stretch > expect_.stretch) {
       result_.verdict = Verdict::stretches;
       result_.complaints.push_back("stretch of at most " + number(expect_.stretch) +
@@ -171,7 +175,9 @@ class Run {
     if (last_phase && time >= expect_.stretch_from) {
       result_.stretch = std::max(result_.stretch, now.stretch);
       if (now.stretch > expect_.held_to()) {
-        complain("stretch " + number(now.stretch) + "; at most " + number(expect_.held_to()), time_);
+        pierced_ = expect_.may_be_pierced && is_pierced(*simulation_, expect_.held_to());
+        if (!pierced_)
+          complain("stretch " + number(now.stretch) + "; at most " + number(expect_.held_to()), time_);
       }
     }
     if (time_ >= expect_.penetration_from) {
@@ -210,13 +216,13 @@ class Run {
   Result result_;
   double time_ = 0, seconds_ = 0, energy_ = 0;
   long steps_ = 0, substeps_ = 0;
-  bool finite_ = true;
+  bool finite_ = true, pierced_ = false;
 };
 
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-  constexpr std::array kNames{"pass", "fail", "limit", "stretches"};
+  constexpr std::array kNames{"pass", "fail", "limit", "stretches", "pierced"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

@@ -10,6 +10,8 @@ enum class Verdict {
   limit,      ///< an explicit method beyond the steps it has: expected, recorded
   stretches,  ///< all else holds, but springs are longer than the case allows: XPBD where it does not claim
               ///< it
+  pierced,    ///< all else holds, but a solid sticks through a cell and holds it open, where the case says
+              ///< that it may
 };
 const char* name_of(Verdict verdict);
 

@@ -92,7 +92,7 @@ class Contact {
   /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
   /// its side: resolve does not stop them.
   void let_slide_off(const std::vector<Touch>& not_held) { not_held_ = not_held; }
-  /// Before resolve: constraints have kept these on their side of a body; ordered. Their ways are not looked
+  /// Before resolve: constraints have kept these on their side of a solid; ordered. Their ways are not looked
   /// at again: where one cuts an edge they would be put back onto the face that they came from.
   void trust(const std::vector<Touch>& kept_aside) { kept_aside_ = kept_aside; }
   /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.

@@ -52,7 +52,8 @@ class ContactConstraints {
                           kernels::Components<const Real> move, const AttachedBodies<Real>& bodies);
   /// What lay on a solid when the substep began and is not held to it, as it leaves or has slid off; ordered.
   const std::vector<Touch>& not_held() const { return not_held_; }
-  /// After finish: what was held on its side of a body, or came off on that side; ordered.
+  /// After finish: what was held on its side of a body, or of what stands firm if it went less than half
+  /// through it, or came off on that side; ordered.
   const std::vector<Touch>& kept_aside() const { return kept_aside_; }
   void clear() {
     constraints_.clear();

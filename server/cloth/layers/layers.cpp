@@ -20,9 +20,6 @@ constexpr double kNetPart = 0.1;
 /// one was put up to 1.1 mm into it in steps of 1/15 s (S51d).
 constexpr double kOnSolid = 0.1;
 
-/// Longest parts of a step (Layers::parts), s; what is longer by a tenth of a part is rounding.
-constexpr double kLongestImplicit = 1.0 / 30, kLongestExplicit = 1.0 / 60, kRounding = 0.1;
-
 /// What moves faster than this rouses a sleeping cloth that it touches, m/s.
 constexpr double kRousing = 0.01;
 
@@ -132,16 +129,6 @@ void Layers<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
       nodes_.lies[n] = before[n];
     }
   }
-}
-
-template <class Real>
-int Layers<Real>::parts(const std::vector<Cloth<Real>>& cloths, double dt) const {
-  double longest = dt;
-  for (const Cloth<Real>& cloth : cloths) {
-    if (cloths.size() == 1 && !(cloth.has_moving_pins() && cloth.steps_implicitly())) continue;
-    longest = std::min(longest, cloth.steps_implicitly() ? kLongestImplicit : kLongestExplicit);
-  }
-  return static_cast<int>(std::ceil(dt / longest - kRounding));
 }
 
 template <class Real>

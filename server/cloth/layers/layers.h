@@ -24,12 +24,6 @@ class Layers {
  public:
   explicit Layers(const ClothContactEffect& parameters) : parameters_(parameters) {}
 
-  /// So many parts a step of dt seconds is to be made in. Cloths learn only once a step what others do, and
-  /// what hands turn is taken to go straight on: with implicit steps parts are at most 1/30 s where there are
-  /// several cloths or pins that move, with explicit ones, which share nothing of a force, at most 1/60 s
-  /// where there are several. At 15 Hz a strip wrung by a hand had 654 J where 30 are put in (S51b, backward
-  /// Euler), and XPBD's sheet on a sheet never came to rest (S51c).
-  int parts(const std::vector<Cloth<Real>>& cloths, double dt) const;
   /// Before the cloths' step of dt seconds.
   void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
   /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth.

@@ -117,28 +117,4 @@ TEST(OneAgainstTheOther, SheetsThatMeetHeadOnStop) {
   }
 }
 
-// Layers::parts: at most 1/30 s by implicit and 1/60 s by explicit methods, each with the substeps described.
-TEST(StepsInParts, AreThoseOfSeveralClothsAndOfHands) {
-  const auto substeps = [](SimulationDescription scene, int hz) {
-    scene.time_step = 1.0 / hz;
-    Simulation<float> simulation(scene);
-    simulation.step();
-    simulation.step();
-    EXPECT_EQ(simulation.time(), 2.0 / hz);
-    return simulation.last_advance(0).substeps;
-  };
-  const IntegratorDescription implicit = Bdf2Description{}, projective = XpbdDescription{.substeps = 3};
-  EXPECT_EQ(substeps(caught(4, implicit), 15), 2);
-  EXPECT_EQ(substeps(caught(4, implicit), 30), 1);
-  EXPECT_EQ(substeps(caught(4, projective), 15), 4 * 3);
-  EXPECT_EQ(substeps(caught(4, projective), 60), 3);
-  EXPECT_EQ(substeps(wrung(4, implicit), 15), 2);
-  EXPECT_EQ(substeps(dropped_on_edge(4, implicit), 15), 1);
-  SimulationDescription apart = caught(4, implicit);
-  std::erase_if(apart.effects, [](const EffectDescription& each) {
-    return std::holds_alternative<ClothContactEffect>(each);
-  });
-  EXPECT_EQ(substeps(apart, 15), 1);
-}
-
 }  // namespace weft::test

@@ -1,0 +1,43 @@
+#include "cloth/step_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Longest parts where cloths touch, s; what is longer by a tenth of a part is rounding.
+constexpr double kLongestImplicit = 1.0 / 30, kLongestExplicit = 1.0 / 60, kRounding = 0.1;
+/// Farthest that pins go in a part, as a part of the cloth's larger side, and most parts made for that.
+constexpr double kFarthest = 0.5, kMostForPins = 8;
+
+template <class Real>
+double parts_for_contact(const Cloth<Real>& cloth, bool alone, double dt) {
+  const bool implicitly = cloth.steps_implicitly();
+  if (alone && !(implicitly && cloth.has_moving_pins())) return 1;
+  return dt / (implicitly ? kLongestImplicit : kLongestExplicit);
+}
+
+template <class Real>
+double parts_for_pins(const Cloth<Real>& cloth, double time, double dt) {
+  if (!cloth.has_moving_pins() || !cloth.steps_implicitly()) return 1;
+  const double way = cloth.way_of_pins(time, time + dt);
+  return std::min(way / (kFarthest * cloth.description().size.maxCoeff()), kMostForPins);
+}
+
+}  // namespace
+
+template <class Real>
+int step_parts(const std::vector<Cloth<Real>>& cloths, bool in_contact, bool solid, double time, double dt) {
+  double parts = 1;
+  for (const Cloth<Real>& cloth : cloths) {
+    if (in_contact) parts = std::max(parts, parts_for_contact(cloth, cloths.size() == 1, dt));
+    if (solid) parts = std::max(parts, parts_for_pins(cloth, time, dt));
+  }
+  return static_cast<int>(std::ceil(parts - kRounding));
+}
+
+template int step_parts(const std::vector<Cloth<float>>&, bool, bool, double, double);
+template int step_parts(const std::vector<Cloth<double>>&, bool, bool, double, double);
+
+}  // namespace weft

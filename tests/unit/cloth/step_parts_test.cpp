@@ -1,0 +1,70 @@
+// Long steps are made in parts (step_parts.h), each with the substeps described: how many are counted by
+// those.
+#include "cloth/step_parts.h"
+
+#include <gtest/gtest.h>
+
+#include "cloth/simulation.h"
+#include "folding_scenes.h"
+
+namespace weft::test {
+namespace {
+
+int substeps(SimulationDescription scene, int hz) {
+  scene.time_step = 1.0 / hz;
+  Simulation<float> simulation(scene);
+  simulation.step();
+  simulation.step();
+  EXPECT_EQ(simulation.time(), 2.0 / hz);
+  return simulation.last_advance(0).substeps;
+}
+
+}  // namespace
+
+// At most 1/30 s by implicit and 1/60 s by explicit methods.
+TEST(StepsInParts, AreThoseOfSeveralClothsAndOfHands) {
+  const IntegratorDescription implicit = Bdf2Description{}, projective = XpbdDescription{.substeps = 3};
+  EXPECT_EQ(substeps(caught(4, implicit), 15), 2);
+  EXPECT_EQ(substeps(caught(4, implicit), 30), 1);
+  EXPECT_EQ(substeps(caught(4, projective), 15), 4 * 3);
+  EXPECT_EQ(substeps(caught(4, projective), 60), 3);
+  EXPECT_EQ(substeps(wrung(4, implicit), 15), 2);
+  EXPECT_EQ(substeps(dropped_on_edge(4, implicit), 15), 1);
+  SimulationDescription apart = caught(4, implicit);
+  std::erase_if(apart.effects, [](const EffectDescription& each) {
+    return std::holds_alternative<ClothContactEffect>(each);
+  });
+  EXPECT_EQ(substeps(apart, 15), 1);
+}
+
+// Of a sheet of 2 m whose edge goes to and fro at 50 m/s, with something solid: at most 1 m a part by
+// implicit methods. 50 / 60 m are one part, 50 / 30 two, 50 / 15 four, though it is back where it was at the
+// step's end, and 500 m/s eight.
+TEST(StepsInParts, AreThoseOfPinsThatGoFarPastWhatIsSolid) {
+  const auto yanked = [](const IntegratorDescription& integrator, double speed, double period) {
+    SimulationDescription scene;
+    ClothDescription cloth;
+    cloth.initial_level = 3;
+    cloth.pins = {
+        {0, 1, 0, 0, {{0, {0, 0, 0}}, {period / 2, {0, 0, speed * period / 2}}, {period, {0, 0, 0}}}}};
+    cloth.pins[0].loop = true;
+    scene.cloths = {cloth};
+    scene.integrator = integrator;
+    BallDescription ball;
+    ball.position = {0, -5, 0};
+    scene.balls = {ball};
+    return scene;
+  };
+  const IntegratorDescription implicit = BackwardEulerDescription{};
+  const double period = 1.0 / 15;
+  EXPECT_EQ(substeps(yanked(implicit, 50, period), 60), 1);
+  EXPECT_EQ(substeps(yanked(implicit, 50, period), 30), 2);
+  EXPECT_EQ(substeps(yanked(implicit, 50, period), 15), 4);
+  EXPECT_EQ(substeps(yanked(implicit, 500, period), 15), 8);
+  EXPECT_EQ(substeps(yanked(XpbdDescription{.substeps = 3}, 50, period), 15), 3);
+  SimulationDescription free = yanked(implicit, 50, period);
+  free.balls.clear();
+  EXPECT_EQ(substeps(free, 15), 1);
+}
+
+}  // namespace weft::test
