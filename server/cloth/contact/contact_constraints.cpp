@@ -125,7 +125,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
                                        const Vec3& place, const Vec3& way, double mass) const -> Constraint {
   const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
   const bool held = same != last_.end() && same->touch == touch;
-  const double holds = held ? solid.friction * same->force : 0.0;
+  const double holds = held ? solid.friction * same->usual_force() : 0.0;
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
   const double slid = along(normal, slip).norm();
@@ -140,6 +140,10 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
                   slid,
                   slid,
                   inner_radius(solid.shape)};
+  if (held) {
+    made.last_force = same->force;
+    made.force_before = same->last_force;
+  }
   made.has_stuck = held && (same->has_stuck || same->sticks());
   if (made.has_stuck) {
     made.speeding_up = speeding_up(*same, slid, holds, mass);
@@ -148,6 +152,16 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   if (held && near_rest_) made.grip = along(normal, same->grip);
   if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
   return made;
+}
+
+/// A step is solved as accurately as its motion asks for, and a contact gives so little that one force alone
+/// may be many times what it should be: under a sheet of 4 N a ball that rolled was pressed by 80 N, and drew
+/// it along until a corner was stretched by 0.13, with this by 0.06 (S20a, BDF2, level 6, 15 Hz).
+template <class Real>
+double ContactConstraints<Real>::Constraint::usual_force() const {
+  if (last_force < 0) return force;
+  if (force_before < 0) return std::min(force, last_force);
+  return std::max(std::min(force, last_force), std::min(std::max(force, last_force), force_before));
 }
 
 /// Friction is taken in proportion to the slip that is expected (add_to). By the last slip alone a node that

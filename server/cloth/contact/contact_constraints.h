@@ -10,7 +10,7 @@ namespace weft {
 
 /// Contacts as a part of an implicit step's linear system. A node that touches a solid or will in the step is
 /// held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along with the
-/// solid by Coulomb friction: a force of at most friction times the normal force, that of the step before. A
+/// solid by Coulomb friction: a force of at most friction times the normal force, that of the steps before. A
 /// spring that turns out to pull is taken away. Near rest a node that sticks goes on with the force that held
 /// it: found anew in each step it would have to slip for it each time, and a drape would creep. What little
 /// the others give, and nodes that were not expected, Contact::resolve puts right after the step.
@@ -101,11 +101,15 @@ class ContactConstraints {
     double stiffness = 0;           ///< N/m
     double friction_stiffness = 0;  ///< N/m
     double force = 0;               ///< along the normal, N
-    bool has_stuck = false;         ///< since it touches
-    double speeding_up = 0;         ///< then: by how much more it will slide by what pulls at it, m
+    /// In the last step and the one before; negative where it did not touch yet, N.
+    double last_force = -1, force_before = -1;
+    bool has_stuck = false;  ///< since it touches
+    double speeding_up = 0;  ///< then: by how much more it will slide by what pulls at it, m
     bool released = false;
     bool pinched = false;  ///< held both ways: another solid keeps the node from leaving this one
     Vec3 grip{0, 0, 0};    ///< of static friction when the substep begins; after finish, when it ends, N
+    /// What friction goes by: the median of three steps' forces, the lesser of two, N.
+    double usual_force() const;
     bool sticks() const { return friction_stiffness > 0 && friction_stiffness == stiffness; }
   };
   /// The force along the surface at `moved`, N.
