@@ -43,18 +43,18 @@ struct Phase {
 
 /// The figures a case states. All are physical: what may be put in, what must have settled by when.
 struct Expectation {
-  double input = 0;          ///< J, work that wind and moving bodies may do on the cloth
-  double stretch = 0.05;     ///< largest extension of a structural spring, relative
-  double stretch_least = 0;  ///< and what the largest is at least: with less the sheet is too stiff
-  double stretch_from = 1;   ///< s, of the last phase: from then on it is held to it
-  /// What is in its way is thinner than a cell may be drawn wide. Contact is the nodes': it may come through
-  /// between them, and hold the sheet, which then does not claim `stretch`.
-  bool may_be_pierced = false;
+  double input = 0;                 ///< J, work that wind and moving bodies may do on the cloth
+  double stretch = 0.05;            ///< largest extension of a structural spring, relative
+  double stretch_least = 0;         ///< and what the largest is at least: with less the sheet is too stiff
+  double stretch_from = 1;          ///< s, of the last phase: from then on it is held to it
   double excess = 0;                ///< beside `stretch`, what XPBD is known to leave (xpbd_excess)
   double penetration = 1e-5;        ///< m, deepest that a node may be in a solid at the end of a step
   double penetration_from = 0;      ///< s, of the case: from then on
   bool rests = true;                ///< falls asleep after it (criteria.h)
   std::optional<double> top_speed;  ///< m/s, of any node, from the first step on
+  /// What is in its way is thinner than a cell may be drawn wide. Contact is the nodes': it may come through
+  /// between them, and hold the sheet, which then does not claim `stretch`.
+  bool may_be_pierced = false;
 
   /// A method whose known excess is not small beside the limit does not claim it: it is held to both
   /// together, and where it is beyond the limit the verdict says so.

@@ -227,9 +227,6 @@ TYPED_TEST(ContinuousContact, ANodePinchedBetweenBallAndFloorStaysOnTheFloor) {
   EXPECT_GT(pinched, 10);  // pi 0.16^2 / 0.0625^2 = 21
 }
 
-// The sheet lies on a fixed ball, another presses it down by 5 cm more than there is room for (S9b). The
-// sheet around pulls what is between them off the ball that holds it, into the other one: after a quarter of
-// a second it lies still all the same, to a hundred-thousandth of the sheet's size.
 // As it came to a turned box in S54b, in the box's frame: a sheet of 2 m goes by its corner at 1 m/s, 3.6 cm
 // in the step. One node would cut the edge, 4 mm wide, from the upper face to the right one. Put back onto
 // the upper one it would stay 2.9 cm behind its neighbours, 3.1 cm away.
@@ -257,6 +254,9 @@ TEST(ContinuousContactOfAStep, ANodeThatCutsAnEdgeGoesOnBesideIt) {
   }
 }
 
+// The sheet lies on a fixed ball, another presses it down by 5 cm more than there is room for (S9b). The
+// sheet around pulls what is between them off the ball that holds it, into the other one: after a quarter of
+// a second it lies still all the same, to a hundred-thousandth of the sheet's size.
 TEST(ContinuousContactOfAStep, WhatIsPinchedBetweenTwoBallsLiesStill) {
   SimulationDescription scene;
   scene.integrator = BackwardEulerDescription{};
