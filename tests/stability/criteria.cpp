@@ -94,17 +94,20 @@ Reading read(const Simulation<float>& simulation, bool springs_count) {
   return reading;
 }
 
-bool is_pierced(const Simulation<float>& simulation, double stretch) {
+bool is_pierced(const Simulation<float>& simulation) {
   constexpr double kInside = 1e-3;  // m
-  bool pierced = false;
+  double most = -1;
+  Vec3 middle(0, 0, 0);
   for (const Cloth<float>& cloth : simulation.cloths()) {
     for_each_spring(cloth, [&](const Vec3& one, const Vec3& other, double strain) {
-      if (pierced || strain <= stretch) return;
-      for (const Solid& solid : simulation.colliders().solids())
-        pierced = pierced || depth(solid, (one + other) / 2) > kInside;
+      if (strain <= most) return;
+      most = strain;
+      middle = (one + other) / 2;
     });
   }
-  return pierced;
+  const std::vector<Solid>& solids = simulation.colliders().solids();
+  return std::any_of(solids.begin(), solids.end(),
+                     [&](const Solid& solid) { return depth(solid, middle) > kInside; });
 }
 
 Complaint guard_complaint(const Simulation<float>& simulation) {

@@ -34,9 +34,9 @@ struct Reading {
 /// `springs_count`: whether the energy holds the springs'.
 Reading read(const Simulation<float>& simulation, bool springs_count);
 
-/// Whether a structural spring that is stretched by more than this goes through a solid: its middle is inside
-/// by more than rounding.
-bool is_pierced(const Simulation<float>& simulation, double stretch);
+/// Whether the structural spring that is stretched most goes through a solid: its middle is inside by more
+/// than rounding.
+bool is_pierced(const Simulation<float>& simulation);
 
 /// What the step guard had to do in the last step: a step made again, a cloth frozen, a ball stopped. That
 /// more cloth lies in one place than is kept apart is told for information and no fault of the step.

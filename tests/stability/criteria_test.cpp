@@ -47,7 +47,7 @@ TEST(EnergyFall, NotOfWhatStaysOrRises) {
 }
 
 // A rail of 10 cm through the middle of a cell of 25 cm that is drawn to twice that: no node is near it.
-TEST(Pierced, IsWhatHasASolidWithinAStretchedSpring) {
+TEST(Pierced, IsWhatHasASolidWithinTheMostStretchedSpring) {
   SimulationDescription made = ordinary_sheet({Method::bdf2, 3}, {});
   made.obstacles = {{.shape = CapsuleDescription{0.05, 1}}};
   Simulation<float> simulation(made);
@@ -55,17 +55,18 @@ TEST(Pierced, IsWhatHasASolidWithinAStretchedSpring) {
   Particles<float>& sheet = simulation.cloths()[0].particles();
   const Grid& grid = sheet.grid();
   for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.cols; ++c) sheet.position.z.at(r, c) = 1;
+    for (int c = 0; c < grid.cols; ++c) sheet.position.z.at(r, c) = 0.3F;
   }
-  EXPECT_FALSE(is_pierced(simulation, 0.1));
+  EXPECT_FALSE(is_pierced(simulation));
   sheet.position.x.at(4, 4) = 0.25F;
   sheet.position.x.at(4, 5) = 0.75F;
-  EXPECT_FALSE(is_pierced(simulation, 0.1)) << "stretched beside it";
+  EXPECT_FALSE(is_pierced(simulation)) << "stretched beside it";
   sheet.position.z.at(4, 4) = sheet.position.z.at(4, 5) = 0;
   sheet.position.x.at(4, 4) = -0.25F;
   sheet.position.x.at(4, 5) = 0.25F;
-  EXPECT_TRUE(is_pierced(simulation, 0.1));
-  EXPECT_FALSE(is_pierced(simulation, 10)) << "it is not stretched as far";
+  EXPECT_TRUE(is_pierced(simulation));
+  sheet.position.x.at(8, 8) = 3;
+  EXPECT_FALSE(is_pierced(simulation)) << "another one is stretched farther";
 }
 
 }  // namespace

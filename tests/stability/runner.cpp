@@ -175,7 +175,7 @@ class Run {
     if (last_phase && time >= expect_.stretch_from) {
       result_.stretch = std::max(result_.stretch, now.stretch);
       if (now.stretch > expect_.held_to()) {
-        pierced_ = expect_.may_be_pierced && is_pierced(*simulation_, expect_.held_to());
+        pierced_ = expect_.may_be_pierced && is_pierced(*simulation_);
         if (!pierced_)
           complain("stretch " + number(now.stretch) + "; at most " + number(expect_.held_to()), time_);
       }

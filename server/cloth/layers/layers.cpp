@@ -1,7 +1,6 @@
 #include "cloth/layers/layers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
