@@ -39,7 +39,8 @@ struct LayerParameters {
 /// iterations is held, too, and more are made. Layers nearer than their gap are led apart by a part of what
 /// they lack a step, near rest until they have half of it.
 ///
-/// To an explicit substep it is an inelastic impulse; and what it misses within the cloth SubstepNet holds.
+/// To an explicit substep it is an inelastic impulse, and a drag on what separates slowly; and what it misses
+/// within the cloth SubstepNet holds.
 ///
 /// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the

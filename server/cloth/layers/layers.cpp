@@ -1,7 +1,6 @@
 #include "cloth/layers/layers.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "cloth/layers/untangling.h"
@@ -10,17 +9,12 @@
 namespace weft {
 namespace {
 
-/// Nearer features may have passed through each other by rounding, m.
-constexpr double kTouching = 1e-6;
 /// The net keeps features apart by this part.
 constexpr double kNetPart = 0.1;
 
 /// Inverse mass, to the net, of a node on a solid, as a part of its own. Of two sheets on a floor the lower
 /// one was put up to 1.1 mm into it in steps of 1/15 s (S51d).
 constexpr double kOnSolid = 0.1;
-
-/// What moves faster than this rouses a sleeping cloth that it touches, m/s.
-constexpr double kRousing = 0.01;
 
 template <class Real>
 bool stands_still(const Cloth<Real>& cloth) {
@@ -38,9 +32,6 @@ Vec3 lasting(const Vec3& acceleration) {
   const double most = standard_gravity().norm(), size = acceleration.norm();
   return size > most ? Vec3(most / size * acceleration) : acceleration;
 }
-
-/// Pairs of edges that are held, of those that begin at one node: a bound on memory.
-constexpr std::uint16_t kMostEdges = 128;
 
 }  // namespace
 
@@ -193,83 +184,6 @@ void Layers<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
     }
     if (changed) cloths[k].moved_from_outside();
   }
-}
-
-template <class Real>
-std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
-  return static_cast<std::size_t>(std::upper_bound(nodes_.first.begin(), nodes_.first.end(), node) -
-                                  nodes_.first.begin()) -
-         1;
-}
-
-template <class Real>
-void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
-  const double drop = standard_gravity().norm() * dt * dt;
-  std::vector<LayerPair> edges;
-  struct Nearest {
-    double distance = std::numeric_limits<double>::infinity();
-    LayerPair pair;
-  };
-  std::vector<std::vector<LayerPair>> shares(cloths.size());
-  std::vector<int> nearest(2 * nodes_.start.size(), -1);
-  std::vector<Nearest> found;
-  std::vector<std::uint16_t> of_node(nodes_.start.size());
-  const double widest = *std::max_element(gaps_.begin(), gaps_.end());
-  for (const FeaturePair& features : search_.find(nodes_, widest + drop)) {
-    LayerPair pair;
-    pair.features = features;
-    const std::size_t one = sheet_of(features.node[0]), other = sheet_of(features.node[2]);
-    if (features.distance < kTouching) may_be_tangled_ = true;
-    // As they will lie, or, if they would pass through each other, as they meet: what slides past something
-    // on its way does not touch it.
-    const FourPoints ends = points_of(features, nodes_.end);
-    FourPoints points = points_of(features, nodes_.start);
-    const FourPoints way{ends[0] - points[0], ends[1] - points[1], ends[2] - points[2], ends[3] - points[3]};
-    const auto meet = first_contact(features.kind, features.distance, points, way, net_.gap());
-    for (std::size_t i = 0; i < 4; ++i) points[i] += meet.value_or(1) * way[i];
-    pair.near = nearness(features.kind, points);
-    pair.normal = contact_normal(features.kind, points, pair.near);
-    double distance = 0;  // in the end
-    for (std::size_t i = 0; i < 4; ++i) distance += pair.near.weight[i] * pair.normal.dot(ends[i]);
-    pair.gap = std::min(gaps_[one], gaps_[other]);
-    const bool node_on_triangle = features.kind == FeaturePair::Kind::node_triangle;
-    if (!node_on_triangle) pair.gap *= kEdgePart;
-    if (distance - drop > pair.gap) continue;
-    if (!node_on_triangle) {
-      if (of_node[features.node[0]]++ < kMostEdges) {
-        edges.push_back(pair);
-      } else {
-        crowded_[one] = 1;
-      }
-      continue;
-    }
-    pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
-                              features.node[0] - nodes_.first[one], pair.normal, torn_[one].get());
-    int& slot = nearest[2 * std::size_t{features.node[0]} + static_cast<std::size_t>(pair.side)];
-    if (slot < 0) {
-      slot = static_cast<int>(found.size());
-      found.push_back({distance, pair});
-    } else if (distance < found[static_cast<std::size_t>(slot)].distance) {
-      found[static_cast<std::size_t>(slot)] = {distance, pair};
-    }
-  }
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    if (search_.crowded(i)) crowded_[i] = 1;
-  }
-  const auto share = [&](const LayerPair& pair) {
-    const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
-    shares[one].push_back(pair);
-    if (other == one) return;
-    shares[other].push_back(pair);
-    const auto moves = [&](std::uint32_t n) { return nodes_.velocity[n].norm() > kRousing; };
-    if (std::none_of(pair.features.node.begin(), pair.features.node.end(), moves)) return;
-    for (const std::size_t sheet : {one, other}) {
-      if (cloths[sheet].asleep()) cloths[sheet].wake();
-    }
-  };
-  for (const Nearest& n : found) share(n.pair);
-  for (const LayerPair& pair : edges) share(pair);
-  for (std::size_t i = 0; i < cloths.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
 }
 
 template <class Real>

@@ -9,9 +9,10 @@ namespace weft {
 
 /// Contact of a scene's cloths with themselves and with one another (ClothContactEffect), around their steps.
 ///
-/// Before them the pairs are found that lie or will lie nearer than the thickness; each cloth takes them into
-/// its own step (LayerContacts), so that cloths are still stepped side by side. After them all the net
-/// (CollisionNet) stops what they missed, over all cloths together and in one order, whatever the threads.
+/// Before them the pairs are found that lie or will lie nearer than the thickness, of a node on a triangle,
+/// to an implicit step, the nearest on each side alone; each cloth takes them into its own step
+/// (LayerContacts), so that cloths are still stepped side by side. After them all the net (CollisionNet)
+/// stops what they missed, over all cloths together and in one order, whatever the threads.
 ///
 /// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
 /// sheet would push each other.
@@ -48,6 +49,8 @@ class Layers {
   void weigh_down(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  /// A sleeping cloth that it joins is to wake.
+  bool rouses(const LayerPair& pair) const;
   std::size_t sheet_of(std::uint32_t node) const;
 
   ClothContactEffect parameters_;

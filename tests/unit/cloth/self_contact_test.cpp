@@ -132,11 +132,17 @@ TEST(SelfContactSymplecticEuler, SquareDroppedOnItsEdgeNeverCrossesItself) {
 
 // Nothing puts in energy: gravity has a potential, the floor stands still, folds and floor only take some. So
 // it never rises, but for what the method brings in without folds: they add none, to a hundredth of the fall.
-// (0.054 J were seen with XPBD, with folds and without, and 1.65 J where only the net held them.) How it
-// folds hangs on the last digits: falls that begin a little higher fold otherwise.
+// (1.65 J were seen with XPBD where only the net held them.) How it folds hangs on the last digits: falls
+// that begin a little higher fold otherwise.
+//
+// At level 5 XPBD has four times its substeps: with 40 a step its springs bear less than the energy that is
+// counted for their stretch, and in 2 of 16 falls 0.025 J more were counted than there had been, where a
+// border whipped round.
 TEST_P(SelfContact, FoldsOfADroppedSquareBringInNoEnergy) {
   for (int fall = 0; fall < 8; ++fall) {
     SimulationDescription scene = dropped_on_edge(fall < 4 ? 4 : 5, GetParam().description);
+    auto* xpbd = std::get_if<XpbdDescription>(&scene.integrator);
+    if (xpbd != nullptr && fall >= 4) xpbd->substeps = 160;
     scene.cloths[0].position.y() += 4e-7 * fall;
     Simulation<float> simulation(scene);
     const Balance folds = balance(simulation, 120);
