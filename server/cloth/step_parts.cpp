@@ -12,10 +12,8 @@ constexpr double kLongestImplicit = 1.0 / 30, kLongestExplicit = 1.0 / 60, kRoun
 constexpr double kFarthest = 0.5, kMostForPins = 8;
 
 template <class Real>
-double parts_for_contact(const Cloth<Real>& cloth, bool alone, double dt) {
-  const bool implicitly = cloth.steps_implicitly();
-  if (alone && !(implicitly && cloth.has_moving_pins())) return 1;
-  return dt / (implicitly ? kLongestImplicit : kLongestExplicit);
+double parts_for_contact(const Cloth<Real>& cloth, double dt) {
+  return dt / (cloth.steps_implicitly() ? kLongestImplicit : kLongestExplicit);
 }
 
 template <class Real>
@@ -31,7 +29,7 @@ template <class Real>
 int step_parts(const std::vector<Cloth<Real>>& cloths, bool in_contact, bool solid, double time, double dt) {
   double parts = 1;
   for (const Cloth<Real>& cloth : cloths) {
-    if (in_contact) parts = std::max(parts, parts_for_contact(cloth, cloths.size() == 1, dt));
+    if (in_contact) parts = std::max(parts, parts_for_contact(cloth, dt));
     if (solid) parts = std::max(parts, parts_for_pins(cloth, time, dt));
   }
   return static_cast<int>(std::ceil(parts - kRounding));
