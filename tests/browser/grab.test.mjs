@@ -95,7 +95,8 @@ test('without Shift the same drag turns the camera', async () => {
   assert.equal((await stats(page)).hand, null);
   await page.mouse.move(x, y, {steps: 4});
   await page.mouse.up();
-  await until(page, (before) => Math.hypot(...weft.stats.eye.map((value, axis) => value - before[axis])) < 0.05, eye);
+  // It glides on for a while. Aimed at 5 cm before it stood still, the next test's point was once missed by 2.3 cm.
+  await until(page, (before) => Math.hypot(...weft.stats.eye.map((value, axis) => value - before[axis])) < 0.005, eye);
 });
 
 test('double click with Shift pins the cloth there, again unpins it', async () => {

@@ -1,6 +1,5 @@
 /// Layers' pairs: which features each cloth's step is given.
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <utility>
 
