@@ -25,18 +25,14 @@ constexpr std::uint8_t kMostOfNode = 128;
 /// By how much it changes in a step, and the parts of the gap above and below which it does.
 constexpr float kStiffer = 4, kSofter = 0.7F;
 constexpr double kKept = 0.8, kHardlyKept = 0.4;
-/// Part of what layers lack of their gap, or near rest of so much of it, that they are led apart in a step.
-/// Led on to the whole gap, the many pairs of one contact, of which not all can have it at once, push each
-/// other to and fro: a heap at rest on a floor (S51a, level 6) shook by 0.4 mm. On a cloth that stands still
-/// there is no to and fro.
-constexpr double kLedApart = 0.1, kWellApart = 0.5;
-/// What separates slower in an explicit substep is slowed, m/s, as much as bears a layer's own weight at that
-/// speed. Undamped, layers that substeps press together and lead apart shook for a minute (S51a, level 6).
-constexpr double kSlowlyApart = 0.04;
+/// Near rest layers are led apart to this part of their gap (kLayersLedApart). Led on to the whole gap, the
+/// many pairs of one contact, of which not all can have it at once, push each other to and fro: a heap at
+/// rest on a floor (S51a, level 6) shook by 0.4 mm. On a cloth that stands still there is no to and fro.
+constexpr double kWellApart = 0.5;
 
 double led(double distance, double gap, bool near_rest) {
   const double lack = (near_rest ? kWellApart : 1) * gap - distance;
-  return lack > 0 ? distance + kLedApart * lack : std::min(distance, gap);
+  return lack > 0 ? distance + kLayersLedApart * lack : std::min(distance, gap);
 }
 
 PairKey key_of(const LayerPair& pair) {
@@ -44,8 +40,6 @@ PairKey key_of(const LayerPair& pair) {
   const std::uint32_t node = pair.features.node[0];  // twice: of no edge
   return {node, node, static_cast<std::uint32_t>(pair.side), 0};
 }
-
-Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
 
 }  // namespace
 
@@ -335,92 +329,6 @@ void LayerContacts<Real>::finish(kernels::Components<const Real> move) {
   std::sort(forces_.begin(), forces_.end(), [](const PairForce& a, const PairForce& b) {
     return std::tie(a.pair, a.force) < std::tie(b.pair, b.force);
   });
-}
-
-template <class Real>
-void LayerContacts<Real>::move_others(const Substep& substep) {
-  if (substep.from == 0) {
-    others_.clear();
-    for (const LayerPair& pair : pairs_) {
-      for (const std::uint32_t n : pair.features.node) {
-        if (own(n)) continue;
-        const double inverse_mass = nodes_->lies[n] != 0 ? 0.0 : nodes_->inverse_mass[n];
-        others_.push_back({n, nodes_->start[n], nodes_->velocity[n], inverse_mass});
-      }
-    }
-    std::sort(others_.begin(), others_.end(), [](const Other& a, const Other& b) { return a.node < b.node; });
-    others_.erase(std::unique(others_.begin(), others_.end(),
-                              [](const Other& a, const Other& b) { return a.node == b.node; }),
-                  others_.end());
-  }
-  for (Other& each : others_) each.position += substep.seconds * each.velocity;
-}
-
-template <class Real>
-void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& substep) {
-  struck_.clear();
-  const auto position = kernels::components(particles.position),
-             velocity = kernels::components(particles.velocity);
-  move_others(substep);
-  const double part = 1 - std::pow(1 - kLedApart, substep.to - substep.from);
-  const double slowed = 1 - std::exp(-standard_gravity().norm() / kSlowlyApart * substep.seconds);
-  for (const LayerPair& pair : pairs_) {
-    FourPoints x, v;
-    std::array<double, 4> inverse_mass;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t n = pair.features.node[i];
-      if (own(n)) {
-        x[i] = at<Real>(position, n - first_);
-        v[i] = at<Real>(velocity, n - first_);
-        inverse_mass[i] = nodes_->inverse_mass[n];
-      } else {
-        const Other& each = other(n);
-        x[i] = each.position;
-        v[i] = each.velocity;
-        inverse_mass[i] = each.inverse_mass;
-      }
-    }
-    const Nearness near = nearness(pair.features.kind, x);
-    // As they lie now: in folds they may have turned since the step began.
-    const Vec3 normal = contact_normal(pair.features.kind, x, near);
-    const double distance = normal.dot(near.apart);
-    if (distance == 0 || distance >= pair.gap) continue;
-    double share = 0;  // inverse mass along the normal
-    Vec3 relative(0, 0, 0);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double w = near.weight[i];
-      share += w * w * inverse_mass[i];
-      relative += w * v[i];
-    }
-    if (share == 0) continue;
-    const double away = relative.dot(normal), approach = std::max(0.0, -away);
-    Vec3 impulse(0, 0, 0);
-    if (away > 0 && away < kSlowlyApart) impulse = -slowed * away / share * normal;
-    if (approach > 0) {
-      const Vec3 sliding = across(relative, normal);
-      const double speed = sliding.norm();
-      impulse = approach / share * normal;
-      if (speed > 0) impulse -= std::min(parameters_.friction * approach / speed, 1.0) / share * sliding;
-    }
-    // Back by as much as they came nearer in the substep, and a part of what they lack.
-    const double apart =
-        std::min(pair.gap - distance, approach * substep.seconds + part * (pair.gap - distance));
-    const Vec3 push = apart / share * normal;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t n = pair.features.node[i];
-      const double w = near.weight[i] * inverse_mass[i];
-      if (w == 0) continue;
-      if (own(n)) {
-        add(velocity, n - first_, w * impulse);
-        add(position, n - first_, w * push);
-      } else {
-        other(n).velocity += w * impulse;
-        other(n).position += w * push;
-      }
-    }
-  }
-  if (substep.from == 0) substep_net_.begin_step(*nodes_, *found_, first_, end_);
-  substep_net_.apply(particles, substep);
 }
 
 template class LayerContacts<float>;
