@@ -150,7 +150,7 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
   const PairForce last = remembered(c.key);
   c.memory = c.pressed = last.force;
   c.holds = parameters_.friction * c.memory;
-  if (near_rest_ && others) c.grip = across(last.grip, c.normal);
+  if (near_rest_) c.grip = across(last.grip, c.normal);
   if (c.grip.squaredNorm() > c.holds * c.holds) c.grip.setZero();
   return c;
 }

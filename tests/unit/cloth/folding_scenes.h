@@ -128,6 +128,26 @@ inline SimulationDescription on_a_slope(double degrees, double friction,
   return scene;
 }
 
+/// A square whose one half is held on a slope that falls along its middle line, over which the other half is
+/// folded onto it.
+inline SimulationDescription folded_on_a_slope(double degrees, double friction,
+                                               const IntegratorDescription& stepping) {
+  SimulationDescription scene = cloth_scene({0.4, 0.4}, 4, stepping);
+  scene.effects.back() = ClothContactEffect{0.005, friction};
+  const Quaternion slope(Eigen::AngleAxisd(-degrees * std::numbers::pi / 180, Vec3::UnitZ()));
+  const Grid grid = scene.cloths[0].base_cells.at(4);
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const double u = double(c) / (grid.cols - 1), v = double(r) / (grid.rows - 1);
+      scene.cloths[0].nodes.push_back(slope * Vec3(0.4 * v, u > 0.5 ? 0.0055 : 0, 0.4 * std::abs(u - 0.5)));
+    }
+  }
+  scene.cloths[0].pins = {PinRegion{0, 0.5, 0, 1}};
+  // What would lift it, and what would hold it but friction.
+  scene.cloths[0].material.bending = scene.cloths[0].material.shear = 0;
+  return scene;
+}
+
 /// A sheet folded over its middle line, which is held as its upper edge is, with a corner of the front half
 /// put through the back one. Nothing pulls it out.
 inline SimulationDescription poked_by_its_corner(int level, const IntegratorDescription& stepping) {
