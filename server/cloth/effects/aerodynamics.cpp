@@ -68,10 +68,12 @@ double Aerodynamics<Real>::max_damping_rate(const Particles<Real>& particles,
 }
 
 template <class Real>
-double Aerodynamics<Real>::pressure(const Particles<Real>& particles, const EffectContext& context) const {
-  const double speed = max_flow(particles, context) * particles.grid().cells() / context.cloth->size.prod();
-  return 0.5 * parameters_.air_density * std::max(parameters_.drag, parameters_.lift_or_drag()) * speed *
-         speed;
+double Aerodynamics<Real>::tension(const Particles<Real>& particles, const EffectContext& context) const {
+  const Vec2& size = context.cloth->size;
+  const double speed = max_flow(particles, context) * particles.grid().cells() / size.prod();
+  const double pressure =
+      0.5 * parameters_.air_density * std::max(parameters_.drag, parameters_.lift_or_drag()) * speed * speed;
+  return pressure * size.maxCoeff();
 }
 
 template <class Real>

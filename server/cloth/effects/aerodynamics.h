@@ -21,7 +21,7 @@ class Aerodynamics final : public Effect<Real> {
   void add_damping(const Particles<Real>& particles, const EffectContext& context,
                    const DampingMatrix<Real>& damping) const override;
   /// By the cells' area at rest.
-  double pressure(const Particles<Real>& particles, const EffectContext& context) const override;
+  double tension(const Particles<Real>& particles, const EffectContext& context) const override;
   bool feels_wind() const override { return true; }
   bool slow() const override { return true; }
   bool needs_blocks() const override { return true; }

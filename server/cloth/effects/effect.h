@@ -66,8 +66,8 @@ class Effect {
   /// for forces without v.
   virtual void add_damping(const Particles<Real>& particles, const EffectContext& context,
                            const DampingMatrix<Real>& damping) const;
-  /// The largest with which it presses on a face, Pa.
-  virtual double pressure(const Particles<Real>&, const EffectContext&) const { return 0; }
+  /// The largest that the sheet needs to hold what it does, N/m: of a pressure p on a sheet of side L, p L.
+  virtual double tension(const Particles<Real>&, const EffectContext&) const { return 0; }
   /// Whether it asks for the air's velocity at the nodes, if that differs from node to node.
   virtual bool feels_wind() const { return false; }
   /// Whether its force hardly changes from one of many substeps to the next and takes a while to find:

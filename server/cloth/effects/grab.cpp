@@ -106,6 +106,17 @@ void Grabs<Real>::add_forces(const Particles<Real>& particles, const EffectConte
 }
 
 template <class Real>
+double Grabs<Real>::tension(const Particles<Real>& particles, const EffectContext& context) const {
+  const Vec2& size = context.cloth->size;
+  const Grid& grid = particles.grid();
+  const double cell = std::max(size.x() / (grid.cols - 1), size.y() / (grid.rows - 1));
+  const double width = 2 * std::max(cell, patch_radius(*context.cloth, kPatch));
+  double sum = 0;
+  for (const Grab& grab : grabs_) sum += pull_of(grab, particles, context).force.norm() / width;
+  return sum;
+}
+
+template <class Real>
 double Grabs<Real>::largest_share(const Particles<Real>& particles, const ClothDescription& cloth) const {
   const Real* inverse_mass = particles.inverse_mass.row(0);
   double most = 0;

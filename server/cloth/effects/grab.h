@@ -38,6 +38,8 @@ class Grabs final : public Effect<Real> {
 
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
+  /// Of each pull across its patch, together.
+  double tension(const Particles<Real>& particles, const EffectContext& context) const override;
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
   /// Its stiffness as well, which in a step of h weighs as much as a damping of h times it.
   void add_damping(const Particles<Real>& particles, const EffectContext& context,

@@ -26,8 +26,8 @@ class Inflation final : public Effect<Real> {
   const char* name() const override { return InflationEffect::kName; }
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
-  double pressure(const Particles<Real>&, const EffectContext&) const override {
-    return std::abs(parameters_.pressure);
+  double tension(const Particles<Real>&, const EffectContext& context) const override {
+    return std::abs(parameters_.pressure) * context.cloth->size.maxCoeff();
   }
 
  private:

@@ -70,9 +70,9 @@ bool Forces<Real>::any_slow() const {
 }
 
 template <class Real>
-double Forces<Real>::pressure(const Particles<Real>& particles) const {
+double Forces<Real>::tension(const Particles<Real>& particles) const {
   return std::accumulate(effects->begin(), effects->end(), 0.0, [&](double sum, const auto& effect) {
-    return sum + effect->pressure(particles, context);
+    return sum + effect->tension(particles, context);
   });
 }
 

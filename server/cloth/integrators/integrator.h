@@ -62,8 +62,8 @@ struct Forces {
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
   bool any_slow() const;
   DampingRates max_damping_rates(const Particles<Real>& particles) const;
-  /// The largest of all effects together on a face, Pa, at most.
-  double pressure(const Particles<Real>& particles) const;
+  /// What the sheet needs to hold all that the effects do, N/m, at most.
+  double tension(const Particles<Real>& particles) const;
 
  private:
   /// Springs and plate.

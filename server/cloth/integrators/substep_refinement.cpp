@@ -63,12 +63,11 @@ int asked_by_stretch(const Particles<Real>& particles, const kernels::StateExtre
   return asked;
 }
 
-/// What a pressure on the sheet asks for.
+/// What asks for it that the sheet has to hold, a pressure or a hand's pull.
 template <class Real>
-int asked_by_pressure(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
-  const double pressure = forces.pressure(particles);
-  if (pressure == 0) return 1;
-  const double needed = pressure * forces.context.cloth->size.maxCoeff();  // N/m
+int asked_by_tension(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
+  const double needed = forces.tension(particles);
+  if (needed == 0) return 1;
   int asked = 1;
   for (const SpringFamily& family : forces.springs->families()) {
     if (!is_structural(family)) continue;
@@ -119,7 +118,7 @@ int SubstepRefinement<Real>::begin_step(const Particles<Real>& particles, const 
   const Springs<Real>& springs = *forces.springs;
   const kernels::StateExtremes<Real> most = kernels::state_extremes(
       particles.grid(), kernels::components(particles.position), kernels::components(particles.velocity));
-  int asked = asked_by_pressure(particles, forces, h);
+  int asked = asked_by_tension(particles, forces, h);
   if (!springs.torn()) {  // what is cut is no stretch
     asked = std::max(asked, asked_by_stretch(particles, most, springs, h, times_));
   }

@@ -20,7 +20,9 @@ namespace weft {
 ///    soften springs by more than 5 %;
 ///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L; half as stiff it
 ///    bursts (inflation.h). Substeps of h leave a spring k between masses m no stiffer than 1 / (1 / k + 2
-///    h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57).
+///    h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57);
+///  - where a hand pulls with F on a patch of width w, for it to be as stiff as F / w. In a step of 1/15 s it
+///    was drawn out by more than half (S58): too late for what is asked for by stretch.
 ///
 /// So many substeps are kept while fewer would leave springs stretched by more than 5 % that by their own
 /// stiffness are stretched by less: a tangled sheet's, which bear a good part of its weight each.

@@ -176,6 +176,31 @@ TEST(SubstepRefinement, AWindPressesAsMuchAsItsDynamicPressure) {
   EXPECT_EQ(substeps_in(460), 20);
 }
 
+// --- Pulled ---
+
+TEST(SubstepRefinement, AreSoManyThatAPatchBearsAHandsPull) {
+  const auto substeps_at = [](double force) {
+    SimulationDescription scene;  // a sheet of 2 m, 0.4 kg
+    scene.integrator = XpbdDescription{10};
+    ClothDescription cloth;
+    cloth.min_level = cloth.max_level = cloth.initial_level = 3;
+    cloth.size = {2, 2};
+    cloth.material = without_springs();
+    cloth.material.density = 0.1;
+    cloth.material.structural = 5000;
+    cloth.pins = {PinRegion{0, 1, 0, 0}};
+    scene.cloths = {cloth};
+    Simulation<float> simulation(scene);
+    simulation.grab(0, {0.5, 0.5}, Vec3(0, 0, 1000), force);  // so far away that it pulls with all its force
+    simulation.step();
+    return simulation.last_advance(0).substeps;
+  };
+  // As above, where the pull by the patch, two cells of 2 m / 8, is to be the springs' stiffness: 459.5 N.
+  EXPECT_EQ(substeps_at(459), 10);
+  EXPECT_EQ(substeps_at(461), 20);
+  EXPECT_EQ(substeps_at(1e6), 40);
+}
+
 // --- Tangled ---
 
 /// Times the substeps after so many calm steps of a sheet that has just had 4 times as many, stretched by so
