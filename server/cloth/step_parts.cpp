@@ -6,14 +6,15 @@
 namespace weft {
 namespace {
 
-/// Longest parts where cloths touch, s; what is longer by a tenth of a part is rounding.
-constexpr double kLongestImplicit = 1.0 / 30, kLongestExplicit = 1.0 / 60, kRounding = 0.1;
+/// Longest parts where cloth touches cloth, s: of an implicit step that finds all of it together, and of
+/// others; what is longer by a tenth of a part is rounding.
+constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kRounding = 0.1;
 /// Farthest that pins go in a part, as a part of the cloth's larger side, and most parts made for that.
 constexpr double kFarthest = 0.5, kMostForPins = 8;
 
 template <class Real>
-double parts_for_contact(const Cloth<Real>& cloth, double dt) {
-  return dt / (cloth.steps_implicitly() ? kLongestImplicit : kLongestExplicit);
+double parts_for_contact(const Cloth<Real>& cloth, bool alone, double dt) {
+  return dt / (alone && cloth.steps_implicitly() ? kLongest : kLongestApart);
 }
 
 template <class Real>
@@ -29,7 +30,7 @@ template <class Real>
 int step_parts(const std::vector<Cloth<Real>>& cloths, bool in_contact, bool solid, double time, double dt) {
   double parts = 1;
   for (const Cloth<Real>& cloth : cloths) {
-    if (in_contact) parts = std::max(parts, parts_for_contact(cloth, dt));
+    if (in_contact) parts = std::max(parts, parts_for_contact(cloth, cloths.size() == 1, dt));
     if (solid) parts = std::max(parts, parts_for_pins(cloth, time, dt));
   }
   return static_cast<int>(std::ceil(parts - kRounding));

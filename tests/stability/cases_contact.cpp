@@ -26,6 +26,9 @@ Watch nothing_crosses(const Setup&) {
   };
 }
 
+/// Of those that take minutes at level 6.
+const std::vector<int> kBelowFinest{4, 5};
+
 /// A scene of the unit tests, stepped as the setup says.
 using Made = SimulationDescription (*)(int level, const IntegratorDescription&);
 std::function<SimulationDescription(const Setup&)> stepped(Made made) {
@@ -109,7 +112,7 @@ Case wrung() {
       "S51b",
       "strip wrung by four turns in 2 s: never crosses itself, gains no more than a twentieth of the work",
       {{2.2, stepped(test::wrung)}}};
-  made.levels = {4};
+  made.levels = kBelowFinest;
   made.watch = [](const Setup& setup) -> Watch {
     const auto work = std::make_shared<WorkOfHands>(setup);
     return [work](const Simulation<float>& simulation, double time) { return (*work)(simulation, time); };
@@ -132,7 +135,7 @@ std::vector<Case> contact_cases() {
                     test::caught);
   Case fall_together = met("S51d", "two sheets, one above the other, fall on a floor: neither passes through",
                            2, test::fall_together);
-  for (Case* each : {&caught, &fall_together}) each->levels = {4};  // finer ones take a minute
+  for (Case* each : {&caught, &fall_together}) each->levels = kBelowFinest;
   return {
       met("S51a", "square of 1 m dropped on its edge into a heap: never crosses itself", 2,
           test::dropped_on_edge),

@@ -20,10 +20,10 @@ constexpr int kFinest = 6;
 
 bool is_lowest(const HardRun& run) { return run.setup.level == run.hard_case->levels.front(); }
 
-/// The default integrator and XPBD, as a scene is stepped, but for cases of a day's length or of seconds of
-/// frames at level 6.
+/// The default integrator and XPBD, as a scene is stepped, but for cases of a day's length, of seconds of
+/// frames at level 6, or of a minute at level 5.
 bool is_usual(const HardRun& run) {
-  static const std::set<std::string> kSlow{"S13b", "S14a", "S14b", "S15"};
+  static const std::set<std::string> kSlow{"S13b", "S14a", "S14b", "S15", "S51b", "S51c", "S51d"};
   const bool chosen = run.setup.method == Method::bdf2 || run.setup.method == Method::xpbd;
   return chosen && run.setup.hz == 60 && !kSlow.contains(run.hard_case->name);
 }

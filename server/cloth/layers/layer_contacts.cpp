@@ -111,8 +111,8 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
   c.edges = pair.features.kind == FeaturePair::Kind::edge_edge;
   c.normal = pair.normal;
   const double past = substep_.from * substep_.step_seconds(), h = substep_.seconds;
-  bool others = false;                      // nodes of another cloth
-  double others_way = 0, others_share = 0;  // share: inverse mass along the normal
+  bool others = false;                                     // nodes of another cloth
+  double others_way = 0, others_share = 0, own_share = 0;  // share: inverse mass along the normal
   Vec3 slip(0, 0, 0);
   c.slid.setZero();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -128,6 +128,7 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
       c.distance += w * c.normal.dot(start);
       c.coupling.weight[i] = w;
       slip += w * h * own_.velocity[n - first_];
+      own_share += w * w * nodes_->inverse_mass[n];
       continue;
     }
     const Vec3 v = nodes_->velocity[n] + past * nodes_->acceleration[n];
@@ -147,8 +148,11 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
   c.inertia = others_share > 0 ? 1 / (h * h * others_share) : std::numeric_limits<double>::infinity();
   c.slid = across(c.slid, c.normal);
   c.sliding = across(slip, c.normal).norm();
-  const PairForce last = remembered(c.key);
+  PairForce last = remembered(c.key);
+  const bool between_cloths = std::isfinite(c.inertia);
+  if (last.between_cloths != between_cloths) last = {};
   c.memory = c.pressed = last.force;
+  if (between_cloths) c.lasting = last.force + standard_gravity().norm() / (own_share + others_share);
   c.holds = parameters_.friction * c.memory;
   if (near_rest_) c.grip = across(last.grip, c.normal);
   if (c.grip.squaredNorm() > c.holds * c.holds) c.grip.setZero();
@@ -315,13 +319,17 @@ template <class Real>
 void LayerContacts<Real>::finish(kernels::Components<const Real> move) {
   adapt(move);
   struck_.clear();
+  held_.clear();
   forces_.clear();
   for (const Constraint& c : constraints_) {
     if (!c.acts) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (c.coupling.weight[i] != 0) held_.push_back(c.coupling.node[i]);
+    }
     const bool between_cloths = std::isfinite(c.inertia);
     const double force = push(c, move);
     const Vec3 friction = rub(c, move);
-    if (force > 0) forces_.push_back({c.key, force, friction, between_cloths});
+    if (force > 0) forces_.push_back({c.key, std::min(force, c.lasting), friction, between_cloths});
     if (!between_cloths) continue;
     const Vec3 impulse = substep_.seconds * (force * c.normal + friction);
     for (std::size_t i = 0; i < 4; ++i) given_[c.coupling.node[i]] += c.coupling.weight[i] * impulse;

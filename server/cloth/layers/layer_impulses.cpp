@@ -36,6 +36,7 @@ void LayerContacts<Real>::move_others(const Substep& substep) {
 template <class Real>
 void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& substep) {
   struck_.clear();
+  held_.clear();
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
   move_others(substep);
