@@ -56,9 +56,10 @@ TEST(HostOfScenes, ASceneWithoutViewersSleeps) {
     ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 20; }));
     EXPECT_EQ(host.find("alone")->frame(), 0U);
   }
-  // Woken by a viewer, it goes on from where it was.
+  // A viewer wakes it. Which of its first frames arrives is not said: a newer one takes an unsent one's
+  // place.
   Guest guest(host, "alone");
-  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame == 1; }));
+  ASSERT_TRUE(guest.wait_for_frame([](const auto& frame) { return frame.stamp.frame >= 1; }));
 }
 
 TEST(HostOfScenes, GoesOnWhereItSlept) {
@@ -75,10 +76,15 @@ TEST(HostOfScenes, GoesOnWhereItSlept) {
   const auto slept_at = host.find("sleeper")->frame();
   ASSERT_TRUE(watch.wait_for_frame([&](const auto& frame) { return frame.stamp.frame >= at + 60; }));
   EXPECT_EQ(host.find("sleeper")->frame(), slept_at);
+  // Awake again it makes up for nothing: one step at once, the others at their times. (Its first frame need
+  // not be the first sent: a newer one takes an unsent one's place.)
+  const auto woken = std::chrono::steady_clock::now();
   Guest guest(host, "sleeper");
   ASSERT_TRUE(guest.wait_for_frame([](const auto&) { return true; }));
-  EXPECT_GE(guest.reader.frames.front().stamp.frame, slept_at);
-  EXPECT_LE(guest.reader.frames.front().stamp.frame, slept_at + 1);
+  const std::chrono::duration<double> awake = std::chrono::steady_clock::now() - woken;
+  const auto first = guest.reader.frames.front().stamp.frame;
+  EXPECT_GE(first, slept_at);
+  EXPECT_LE(first - slept_at, 1.0 + awake.count() / hung_cloth().simulation.time_step);
 }
 
 TEST(HostOfScenes, StudiesASceneBesideItsSteps) {
