@@ -75,7 +75,10 @@ class Cloth {
   /// it; tears stay whatever made them.
   void take_state(const Cloth& other);
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
-  void set_layers(LayerContacts<Real>* layers) { layers_ = layers; }
+  void set_layers(LayerContacts<Real>* layers) {
+    layers_ = layers;
+    sleep_.set_company(Sleep::Company::none);
+  }
   /// Someone has written to particles() since the last step: that state is the last good one now, if it is
   /// good.
   void moved_from_outside();
@@ -87,6 +90,9 @@ class Cloth {
   /// (sleep.h).
   bool asleep() const { return sleep_.asleep(); }
   void wake() { sleep_.wake(); }
+  /// Left alone it would sleep, or it stands still.
+  bool quiet() const { return sleep_.quiet() || frozen(); }
+  void set_company(Sleep::Company company) { sleep_.set_company(company); }
   /// It, for islands of what sleeps together.
   Sleeper sleeper() const { return sleep_.sleeper(particles_); }
   /// While it rests its steps are left out, too, whatever its motion and the wind; not those in which

@@ -1,26 +1,8 @@
 #include "cloth/islands.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace weft {
-namespace {
-
-/// Sets that are joined step by step (disjoint-set forest, path halving: Tarjan and van Leeuwen, 1984).
-class Islands {
- public:
-  explicit Islands(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { parent_[of(i)] = of(j); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-}  // namespace
 
 void BodyRest::stepped(const Pose& pose, double reach, double distance) {
   const double turned = pose.orientation.angularDistance(began_.orientation);

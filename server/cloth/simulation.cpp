@@ -76,16 +76,9 @@ void Simulation<Real>::set_wind_zone(std::size_t zone, const Vec3& velocity) {
 template <class Real>
 void Simulation<Real>::set_effects(const std::vector<EffectDescription>& effects) {
   colliders_.wake();
-  if (!of_same_types(effects, effects_)) {
-    for (Cloth<Real>& cloth : cloths_) cloth.set_effects(effects);
-    compose(effects);
-    return;
-  }
-  for (Cloth<Real>& cloth : cloths_) cloth.tune_effects(effects);
-  gravity_ = total_gravity(effects);
-  const auto contact = cloth_contact(effects);
-  if (contact != cloth_contact(effects_)) make_layers(contact);
-  effects_ = effects;
+  const bool same_types = of_same_types(effects, effects_);
+  for (Cloth<Real>& cloth : cloths_) same_types ? cloth.tune_effects(effects) : cloth.set_effects(effects);
+  compose(effects);
 }
 
 template <class Real>
@@ -107,9 +100,10 @@ bool Simulation<Real>::set_obstacle_friction(std::size_t index, double friction)
 
 template <class Real>
 void Simulation<Real>::compose(const std::vector<EffectDescription>& effects) {
+  const auto contact = cloth_contact(effects);
+  if (contact != cloth_contact(effects_)) make_layers(contact);
   effects_ = effects;
   gravity_ = total_gravity(effects);
-  make_layers(cloth_contact(effects));
 }
 
 template <class Real>

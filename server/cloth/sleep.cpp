@@ -1,5 +1,6 @@
 #include "cloth/sleep.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace weft {
@@ -34,6 +35,7 @@ bool Sleep::through(const Particles<Real>& particles, const std::vector<Solid>& 
     }
     if (asleep_ && neighbours(solids) != neighbours_) rise();
   }
+  if (company_ == Company::quiet && quiet() && !asleep()) fall_asleep(particles, solids);
   if (resting_ && !asleep_) {
     if (!left_out_) box_ = box_around(particles, kMargin);
     left_out_ = !roused && neighbours(solids).has_value();
@@ -54,7 +56,12 @@ void Sleep::stepped(double speed, double dt, const Particles<Real>& particles,
     watch(particles);
     return;
   }
-  if (++quiet_steps_ < kQuietSteps) return;
+  quiet_steps_ = std::min(quiet_steps_ + 1, kQuietSteps);
+  if (quiet_steps_ == kQuietSteps && company_ == Company::none) fall_asleep(particles, solids);
+}
+
+template <class Real>
+void Sleep::fall_asleep(const Particles<Real>& particles, const std::vector<Solid>& solids) {
   box_ = box_around(particles, kMargin);
   if (auto resting = neighbours(solids)) {
     neighbours_ = std::move(*resting);
@@ -65,7 +72,7 @@ void Sleep::stepped(double speed, double dt, const Particles<Real>& particles,
 template <class Real>
 Sleeper Sleep::sleeper(const Particles<Real>& particles) const {
   if (asleep()) return {box_, true};
-  return {box_around(particles, kMargin), !watched_.empty() && quiet_steps_ >= kQuietSteps};
+  return {box_around(particles, kMargin), quiet()};
 }
 
 template <class Real>

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,9 +15,15 @@ namespace weft {
 /// something comes near. What counts is how far its nodes get, not how fast they are at any moment: rounding
 /// shakes stiff cloth for ever, by micrometres but at millimetres a second.
 ///
+/// Cloths that touch fall asleep together: one that slept under another that still moves would be woken by it
+/// at once, and the other thrown by what had been a rock to it for a step.
+///
 /// A cloth that is told to rest sleeps though it moves, in any wind; its time stands still.
 class Sleep {
  public:
+  /// The cloths that it touches, and those that they touch.
+  enum class Company : std::uint8_t { none, restless, quiet };
+
   /// Steps in a row after which all nodes must lie as near to where they were after the first as the
   /// threshold takes them in that time.
   static constexpr int kQuietSteps = weft::kQuietSteps;
@@ -33,6 +40,9 @@ class Sleep {
     rise();
     roused_ = true;
   }
+  /// It sleeps, or would but for its company.
+  bool quiet() const { return asleep() || (!watched_.empty() && quiet_steps_ >= kQuietSteps); }
+  void set_company(Company company) { company_ = company; }
   void set_resting(bool resting) { resting_ = resting; }
   bool resting() const { return resting_; }
   /// The last step was left out though the cloth may move, as it was told to rest.
@@ -59,6 +69,9 @@ class Sleep {
   /// The solids near the box; nothing if one of them moves or might.
   std::optional<std::vector<Neighbour>> neighbours(const std::vector<Solid>& solids) const;
 
+  /// Unless a solid near it moves.
+  template <class Real>
+  void fall_asleep(const Particles<Real>& particles, const std::vector<Solid>& solids);
   void rise() {
     asleep_ = false;
     watched_.clear();
@@ -77,6 +90,7 @@ class Sleep {
   bool resting_ = false;  ///< it is told to
   bool left_out_ = false;
   bool roused_ = false;  ///< since the last step
+  Company company_ = Company::none;
   Vec3 wind_{0, 0, 0};
   Eigen::AlignedBox3d box_;  ///< with the margin, as the cloth lay when it fell asleep or was left out
   std::vector<Neighbour> neighbours_;

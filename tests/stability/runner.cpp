@@ -152,7 +152,10 @@ class Run {
     }
     return false;
   }
-  bool asleep() const { return simulation_->cloths()[0].asleep(); }
+  bool asleep() const {
+    const auto& cloths = simulation_->cloths();
+    return std::all_of(cloths.begin(), cloths.end(), [](const auto& cloth) { return cloth.asleep(); });
+  }
 
   /// After a step, `time` since the phase's start.
   void judge(double time, bool last_phase) {

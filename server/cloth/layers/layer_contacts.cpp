@@ -67,6 +67,12 @@ PairForce LayerContacts<Real>::remembered(const PairKey& key) const {
 }
 
 template <class Real>
+void LayerContacts<Real>::read_masses(const Particles<Real>& particles) {
+  const auto& values = particles.inverse_mass.values();
+  own_.inverse_mass.assign(values.begin(), values.end());
+}
+
+template <class Real>
 void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep& substep, bool near_rest) {
   constraints_.clear();
   near_rest_ = near_rest;
@@ -79,7 +85,7 @@ void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep&
   own_.start.resize(count);
   own_.velocity.resize(count);
   own_.end.resize(count);
-  own_.inverse_mass.assign(nodes_->inverse_mass.begin() + first_, nodes_->inverse_mass.begin() + end_);
+  read_masses(particles);
   own_.tangled.assign(nodes_->tangled.begin() + first_, nodes_->tangled.begin() + end_);
   for (std::size_t i = 0; i < count; ++i) {
     own_.velocity[i] = at(velocity, i);
@@ -121,14 +127,14 @@ auto LayerContacts<Real>::constraint(const LayerPair& pair) const -> Constraint 
     if (own(n)) {
       c.coupling.node[i] = n - first_;
       const Vec3 &start = own_.start[n - first_], &end = own_.end[n - first_];
-      if (nodes_->inverse_mass[n] == 0) {  // a pin's way is no move of the substep's system
+      if (own_.inverse_mass[n - first_] == 0) {  // a pin's way is no move of the substep's system
         c.distance += w * c.normal.dot(end);
         continue;
       }
       c.distance += w * c.normal.dot(start);
       c.coupling.weight[i] = w;
       slip += w * h * own_.velocity[n - first_];
-      own_share += w * w * nodes_->inverse_mass[n];
+      own_share += w * w * own_.inverse_mass[n - first_];
       continue;
     }
     const Vec3 v = nodes_->velocity[n] + past * nodes_->acceleration[n];

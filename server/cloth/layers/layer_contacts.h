@@ -52,10 +52,12 @@ struct LayerParameters {
 /// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
 /// other. From substep to explicit substep they go on with what it gives them: thought to go on unhindered,
-/// they swapped velocities with it, and two sheets on each other shook for ever. To an implicit step these
-/// masses are in series with the constraint's spring, and the force that pushes on is the mean of what both
-/// have found (share_forces): so each feels the other's weight, and they come to rest on each other. Of a
-/// hit's force no more is carried on than the step before carried and the nodes' own weight, and nothing of
+/// they swapped velocities with it, and two sheets on each other shook for ever. And they are borne as they
+/// were in the step before (LayerNodes::support): thought to give way to a sheet on them, they bore half of
+/// its weight in one step and more in the next (S51c, XPBD, shook by 3 mm for ever). To an implicit step
+/// these masses are in series with the constraint's spring, and the force that pushes on is the mean of what
+/// both have found (share_forces): so each feels the other's weight, and they come to rest on each other. Of
+/// a hit's force no more is carried on than the step before carried and the nodes' own weight, and nothing of
 /// what was found against a cloth that slept: a spring so soft takes it back only where both fly apart (a
 /// sheet lying on one that woke was thrown 1.4 m up, S51d, level 5, BDF2 at 15 Hz). Near
 /// rest what sticks also goes on with the friction that held it: found anew in each step it would creep. In a
@@ -70,7 +72,10 @@ class LayerContacts {
                 const LayerParameters& parameters);
 
   /// The pairs of the step that have nodes of this cloth; forces are remembered by node.
-  void set_pairs(std::vector<LayerPair> pairs) { pairs_ = std::move(pairs); }
+  void set_pairs(std::vector<LayerPair> pairs) {
+    pairs_ = std::move(pairs);
+    if (pairs_.empty()) given_.assign(given_.size(), Vec3(0, 0, 0));
+  }
   /// What is cut of this cloth.
   void set_torn(const std::shared_ptr<const TornLinks>& torn) {
     torn_ = torn;
@@ -119,7 +124,7 @@ class LayerContacts {
 
   /// Nodes that were moved after the last step, by no force: their motion says nothing about what follows.
   std::vector<std::size_t>& struck() { return struck_; }
-  /// What other cloths gave each node in the last implicit step, N s.
+  /// What other cloths gave each node in the last step, N s.
   const std::vector<Vec3>& given() const { return given_; }
   /// Of all pairs that pressed in the last implicit substep; what they are changed to is carried on.
   std::vector<PairForce>& forces() { return forces_; }
@@ -155,8 +160,8 @@ class LayerContacts {
     double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
     PairKey key{};
   };
-  /// A node of another cloth, as an explicit step foresees it: nothing but this cloth's layers acts on it,
-  /// and that neither where it lies on a solid.
+  /// A node of another cloth, as an explicit step foresees it: nothing but this cloth's layers and what
+  /// withstood them in the last step acts on it, and where it lies on a solid neither.
   struct Other {
     std::uint32_t node;
     Vec3 position, velocity;
@@ -169,6 +174,8 @@ class LayerContacts {
                              [](const Other& each, std::uint32_t n) { return each.node < n; });
   }
   bool own(std::uint32_t node) const { return node >= first_ && node < end_; }
+  /// Not LayerNodes': to others the cloth stood still as the step began, though it may have woken in it.
+  void read_masses(const Particles<Real>& particles);
   PairForce remembered(const PairKey& key) const;
   Constraint constraint(const LayerPair& pair) const;
   /// A pair of own_ as it meets on its way; none if it does not.

@@ -30,7 +30,10 @@ void LayerContacts<Real>::move_others(const Substep& substep) {
                               [](const Other& a, const Other& b) { return a.node == b.node; }),
                   others_.end());
   }
-  for (Other& each : others_) each.position += substep.seconds * each.velocity;
+  for (Other& each : others_) {
+    if (each.inverse_mass > 0) each.velocity += substep.seconds * nodes_->support[each.node];
+    each.position += substep.seconds * each.velocity;
+  }
 }
 
 template <class Real>
@@ -40,6 +43,10 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
   move_others(substep);
+  if (substep.from == 0) {
+    read_masses(particles);
+    given_.assign(given_.size(), Vec3(0, 0, 0));
+  }
   const double part = 1 - std::pow(1 - kLayersLedApart, substep.to - substep.from);
   const double slowed = 1 - std::exp(-standard_gravity().norm() / kSlowlyApart * substep.seconds);
   for (const LayerPair& pair : pairs_) {
@@ -50,7 +57,7 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
       if (own(n)) {
         x[i] = at<Real>(position, n - first_);
         v[i] = at<Real>(velocity, n - first_);
-        inverse_mass[i] = nodes_->inverse_mass[n];
+        inverse_mass[i] = own_.inverse_mass[n - first_];
       } else {
         const Other& each = other(n);
         x[i] = each.position;
@@ -72,23 +79,27 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     }
     if (share == 0) continue;
     const double away = relative.dot(normal), approach = std::max(0.0, -away);
-    Vec3 impulse(0, 0, 0);
+    Vec3 impulse(0, 0, 0), rubbed(0, 0, 0);
     if (away > 0 && away < kSlowlyApart) impulse = -slowed * away / share * normal;
     if (approach > 0) {
       const Vec3 sliding = across(relative, normal);
       const double speed = sliding.norm();
       impulse = approach / share * normal;
-      if (speed > 0) impulse -= std::min(parameters_.friction * approach / speed, 1.0) / share * sliding;
+      if (speed > 0) rubbed = -std::min(parameters_.friction * approach / speed, 1.0) / share * sliding;
+      impulse += rubbed;
     }
-    // Back by as much as they came nearer in the substep, and a part of what they lack.
+    // Back by as much as they came nearer in the substep, and a part of what they lack; and by what friction
+    // did not let them slide: what sticks would creep else, at g h.
     const double apart =
         std::min(pair.gap - distance, approach * substep.seconds + part * (pair.gap - distance));
-    const Vec3 push = apart / share * normal;
+    const Vec3 push = apart / share * normal + substep.seconds * rubbed;
+    const bool between_cloths = own(pair.features.node[0]) != own(pair.features.node[2]);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       const double w = near.weight[i] * inverse_mass[i];
       if (w == 0) continue;
       if (own(n)) {
+        if (between_cloths) given_[n - first_] += near.weight[i] * impulse;
         add(velocity, n - first_, w * impulse);
         add(position, n - first_, w * push);
       } else {
@@ -97,7 +108,7 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
       }
     }
   }
-  if (substep.from == 0) substep_net_.begin_step(*nodes_, *found_, first_, end_);
+  if (substep.from == 0) substep_net_.begin_step(*nodes_, own_.inverse_mass, *found_, first_, end_);
   substep_net_.apply(particles, substep);
 }
 

@@ -57,7 +57,7 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   }
   nodes_.first.push_back(count);
   nodes_.start.assign(count, Vec3::Zero());
-  nodes_.end = nodes_.velocity = nodes_.acceleration = nodes_.start;
+  nodes_.end = nodes_.velocity = nodes_.acceleration = nodes_.support = nodes_.start;
   nodes_.inverse_mass.assign(count, 0.0);
   nodes_.lies.assign(count, 0);
   nodes_.tangled.assign(count, 0);
@@ -144,11 +144,12 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
       const Vec3 before = nodes_.velocity[n];
       nodes_.velocity[n] = nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
       nodes_.acceleration[n] = Vec3(0, 0, 0);
+      const Vec3 by_layers = nodes_.inverse_mass[n] / dt * contacts_[k]->given()[i];
+      nodes_.support[n] = (nodes_.support[n] + lasting(-by_layers)) / 2;
       const bool pressed = !contacts_[k]->given()[i].isZero(0), before_it = pressed_[n] != 0;
       pressed_[n] = pressed ? 1 : 0;
       if (anew || gap || nodes_.inverse_mass[n] == 0 || (pressed && before_it)) continue;
-      nodes_.acceleration[n] =
-          lasting((nodes_.velocity[n] - before - nodes_.inverse_mass[n] * contacts_[k]->given()[i]) / dt);
+      nodes_.acceleration[n] = lasting((nodes_.velocity[n] - before) / dt - by_layers);
     }
   }
   std::transform(nodes_.start.begin(), nodes_.start.end(), nodes_.velocity.begin(), nodes_.end.begin(),

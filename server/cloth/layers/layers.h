@@ -49,6 +49,8 @@ class Layers {
   void weigh_down(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  /// Tells the cloths in what company they are; islands are of those that pairs join.
+  void let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const;
   /// A sleeping cloth that it joins is to wake.
   bool rouses(const LayerPair& pair) const;
   std::size_t sheet_of(std::uint32_t node) const;

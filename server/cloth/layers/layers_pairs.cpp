@@ -80,11 +80,13 @@ template <class Real>
 void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
   std::vector<std::vector<LayerPair>> shares(cloths.size());
+  Islands islands(cloths.size());
   // With those of its cloths that step so.
   const auto share = [&](const LayerPair& pair, bool with_implicit) {
     const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
     if (implicitly(one) == with_implicit) shares[one].push_back(pair);
     if (other == one) return;
+    islands.join(one, other);
     if (implicitly(other) == with_implicit) shares[other].push_back(pair);
     if (with_implicit != implicitly(one) && with_implicit != implicitly(other)) return;
     for (const std::size_t sheet : {one, other}) {
@@ -128,13 +130,31 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
     share(pair, false);
   }
   for (std::size_t i = 0; i < cloths.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
+  let_sleep(cloths, islands);
+}
+
+template <class Real>
+void Layers<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const {
+  std::vector<std::size_t> size(cloths.size(), 0), quiet(cloths.size(), 0);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ++size[islands.of(i)];
+    if (cloths[i].quiet()) ++quiet[islands.of(i)];
+  }
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const std::size_t island = islands.of(i);
+    cloths[i].set_company(size[island] == 1               ? Sleep::Company::none
+                          : quiet[island] == size[island] ? Sleep::Company::quiet
+                                                          : Sleep::Company::restless);
+  }
 }
 
 template std::size_t Layers<float>::sheet_of(std::uint32_t) const;
 template bool Layers<float>::rouses(const LayerPair&) const;
 template void Layers<float>::share_pairs(std::vector<Cloth<float>>&, double);
+template void Layers<float>::let_sleep(std::vector<Cloth<float>>&, Islands&) const;
 template std::size_t Layers<double>::sheet_of(std::uint32_t) const;
 template bool Layers<double>::rouses(const LayerPair&) const;
 template void Layers<double>::share_pairs(std::vector<Cloth<double>>&, double);
+template void Layers<double>::let_sleep(std::vector<Cloth<double>>&, Islands&) const;
 
 }  // namespace weft

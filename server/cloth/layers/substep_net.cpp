@@ -29,11 +29,11 @@ Vec3 mean(const LayerNodes& nodes, Way way) {
 
 }  // namespace
 
-void SubstepNet::begin_step(const LayerNodes& nodes, const FeatureSearch& found, std::uint32_t first,
-                            std::uint32_t end) {
+void SubstepNet::begin_step(const LayerNodes& nodes, const std::vector<double>& inverse_mass,
+                            const FeatureSearch& found, std::uint32_t first, std::uint32_t end) {
   const auto copy = [&](const auto& from, auto& to) { to.assign(from.begin() + first, from.begin() + end); };
   copy(nodes.start, own_.start);
-  copy(nodes.inverse_mass, own_.inverse_mass);
+  own_.inverse_mass = inverse_mass;
   copy(nodes.tangled, own_.tangled);
   own_.end.resize(own_.start.size());
   copy(nodes.start, found_start_);

@@ -25,8 +25,8 @@ class SubstepNet {
   void set_torn(const TornLinks& torn) { search_.set_torn(0, torn); }
   /// A step begins. `found` is the search of all cloths for it, from nodes.start to nodes.end; this cloth's
   /// nodes are those from `first` to `end`.
-  void begin_step(const LayerNodes& nodes, const FeatureSearch& found, std::uint32_t first,
-                  std::uint32_t end);
+  void begin_step(const LayerNodes& nodes, const std::vector<double>& inverse_mass,
+                  const FeatureSearch& found, std::uint32_t first, std::uint32_t end);
   /// At a substep's end: moves nodes on, and changes their velocities.
   template <class Real>
   void apply(Particles<Real>& particles, const Substep& substep);
