@@ -53,7 +53,7 @@ struct LayerParameters {
 /// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
 /// other. From substep to explicit substep they go on with what it gives them: thought to go on unhindered,
 /// they swapped velocities with it, and two sheets on each other shook for ever. And they are borne as they
-/// were in the step before (LayerNodes::support): thought to give way to a sheet on them, they bore half of
+/// were in the steps before (LayerNodes::support): thought to give way to a sheet on them, they bore half of
 /// its weight in one step and more in the next (S51c, XPBD, shook by 3 mm for ever). To an implicit step
 /// these masses are in series with the constraint's spring, and the force that pushes on is the mean of what
 /// both have found (share_forces): so each feels the other's weight, and they come to rest on each other. Of
@@ -161,7 +161,7 @@ class LayerContacts {
     PairKey key{};
   };
   /// A node of another cloth, as an explicit step foresees it: nothing but this cloth's layers and what
-  /// withstood them in the last step acts on it, and where it lies on a solid neither.
+  /// withstood them before acts on it, and where it lies on a solid neither.
   struct Other {
     std::uint32_t node;
     Vec3 position, velocity;

@@ -24,7 +24,7 @@ class SubstepNet {
   /// What is cut of the cloth.
   void set_torn(const TornLinks& torn) { search_.set_torn(0, torn); }
   /// A step begins. `found` is the search of all cloths for it, from nodes.start to nodes.end; this cloth's
-  /// nodes are those from `first` to `end`.
+  /// nodes are those from `first` to `end`, and have `inverse_mass`, 1/kg, be it that it woke in the step.
   void begin_step(const LayerNodes& nodes, const std::vector<double>& inverse_mass,
                   const FeatureSearch& found, std::uint32_t first, std::uint32_t end);
   /// At a substep's end: moves nodes on, and changes their velocities.
