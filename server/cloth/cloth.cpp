@@ -9,6 +9,7 @@
 #include "cloth/refine.h"
 #include "cloth/start.h"
 #include "cloth/tear/mend.h"
+#include "cloth/tear/pieces.h"
 #include "cloth/tear/tearing.h"
 #include "cloth/unfold.h"
 
@@ -106,7 +107,10 @@ bool Cloth<Real>::apply_pending_level() {
     const bool by_area = description_.discretization == Discretization::continuum;
     if (next > level_) {
       split(particles_, particles);
-      if (walls_) mend_split(walls_->at(next), cell(particles.grid()), particles);
+      if (walls_) {
+        part_pieces(*torn_, next, *walls_);
+        mend_split(walls_->at(next), cell(particles.grid()), particles);
+      }
     } else {
       merge(particles_, particles);
       if (by_area && torn_) merge_torn_momentum(particles_, *torn_, particles);

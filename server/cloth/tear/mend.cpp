@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
+
+#include "cloth/islands.h"
 
 namespace weft {
 namespace {
@@ -87,6 +90,24 @@ Found look_around(const TornLinks& torn, const Particles<Real>& fine, const Fiel
   return found;
 }
 
+/// Of those that are `left` and hang together the first is sound; it is left no more.
+void begin_flakes(const TornLinks& torn, std::vector<Place>& left, Field<char>& sound) {
+  const Grid& grid = torn.grid();
+  const auto index = [&](const Place& p) { return grid.index(p.row, p.col); };
+  Islands flakes(grid.size());
+  for (const Place& p : left) {
+    for (const Place& way : {kWays[0], kWays[1]}) {
+      if (linked(torn, p, way)) flakes.join(index(p), index({p.row + way.row, p.col + way.col}));
+    }
+  }
+  std::vector<char> begun(grid.size(), 0);
+  std::erase_if(left, [&](const Place& p) {
+    const bool first = std::exchange(begun[flakes.of(index(p))], 1) == 0;
+    if (first) sound.at(p.row, p.col) = 1;
+    return first;
+  });
+}
+
 /// The coarse nodes around a fine one, by how much of its momentum they get.
 struct Parents {
   std::array<Place, 4> place{};
@@ -145,7 +166,7 @@ void mend_split(const TornLinks& torn, const Vec2& spacing, Particles<Real>& fin
     }
     // Not before all of a pass are placed, so that their order does not matter.
     for (const Place& p : placed) sound.at(p.row, p.col) = 1;
-    if (placed.empty() && !straight) break;
+    if (placed.empty() && !straight) begin_flakes(torn, waiting, sound);
     straight = !placed.empty();
     left = std::move(waiting);
   }

@@ -1,7 +1,9 @@
 // Walls, what they cut at each level, and how nodes go on from level to level beside them.
 #include <gtest/gtest.h>
 
+#include "cloth/islands.h"
 #include "cloth/tear/mend.h"
+#include "cloth/tear/pieces.h"
 #include "cloth/tear/walls.h"
 #include "fixtures.h"
 #include "tears.h"
@@ -120,6 +122,56 @@ TEST(TornLinks, WholeFacesAreAllThatAreNotTorn) {
   EXPECT_GT(links.torn_faces().size(), 20U);
 }
 
+/// What hangs together.
+Islands pieces_of(const TornLinks& links) {
+  const Grid& grid = links.grid();
+  Islands pieces(grid.size());
+  each_node(grid, [&](int r, int c) {
+    if (c + 1 < grid.cols && !links.torn(Link{r, c, true}))
+      pieces.join(grid.index(r, c), grid.index(r, c + 1));
+    if (r + 1 < grid.rows && !links.torn(Link{r, c, false}))
+      pieces.join(grid.index(r, c), grid.index(r + 1, c));
+  });
+  return pieces;
+}
+
+/// Pairs of coarse nodes next to each other that hang together on one of the grids alone.
+int differing_pairs(const TornLinks& coarse, const TornLinks& fine) {
+  const Grid &few = coarse.grid(), &many = fine.grid();
+  Islands before = pieces_of(coarse), after = pieces_of(fine);
+  int differing = 0;
+  const auto compare = [&](int r, int c, int rows, int cols) {
+    if (r + rows >= few.rows || c + cols >= few.cols) return;
+    const bool together = before.of(few.index(r, c)) == before.of(few.index(r + rows, c + cols));
+    const bool still =
+        after.of(many.index(2 * r, 2 * c)) == after.of(many.index(2 * (r + rows), 2 * (c + cols)));
+    differing += together != still ? 1 : 0;
+  };
+  each_node(few, [&](int r, int c) {
+    compare(r, c, 0, 1);
+    compare(r, c, 1, 0);
+  });
+  return differing;
+}
+
+// Of walls that levels 3 and 4 have made, some part what level 5 would join: pieces that had flown 100 m from
+// each other were pulled at by springs between them, with 1.5e10 J (random scene 1276).
+TEST(PartPieces, WhatHasComeApartStaysApart) {
+  int joined = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Walls walls(kBase, 6);
+    for (const int level : {3, 4}) {
+      for (const Link& link : some_links(level, level == 3 ? 80 : 400, seed)) walls.add(level, link);
+    }
+    const TornLinks coarse = walls.at(4);
+    joined += differing_pairs(coarse, walls.at(5));
+    part_pieces(coarse, 5, walls);
+    EXPECT_EQ(differing_pairs(coarse, walls.at(5)), 0) << "seed " << seed;
+    EXPECT_EQ(count_cut(walls.at(4)), count_cut(coarse)) << "links of the coarse grid are left alone";
+  }
+  EXPECT_GT(joined, 0) << "nothing to part";
+}
+
 TEST(MendSplit, PutsNewNodesWhereTheirOwnSideGoesOn) {
   // A flat sheet in two halves, the lower one 3 m further down and moving: on both sides of the tear the new
   // nodes must lie on their own half's lattice, bit for bit but for rounding, and move as it does.
@@ -143,6 +195,44 @@ TEST(MendSplit, PutsNewNodesWhereTheirOwnSideGoesOn) {
         << r << ' ' << c;
     EXPECT_EQ(get(fine.velocity, r, c), below ? moving : Vec3(0, 0, 0)) << r << ' ' << c;
   });
+}
+
+// Pieces of a flat sheet that lie a kilometre from each other: no link leads from one to another, and none
+// within one is longer than a few cells, as nodes next to each other may each hang, by a cell at most, on
+// nodes some cells apart. Flakes of new nodes alone, each node where its own mean was taken across walls, had
+// links of 12 km (random scene 1276).
+TEST(MendSplit, KeepsPiecesAndFlakesTogether) {
+  const Grid coarse_grid = kBase.at(4), fine_grid = kBase.at(5);
+  constexpr double kCell = 1 / 32.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Walls walls(kBase, 5);
+    for (const int level : {3, 4, 5}) {
+      for (const Link& link : some_links(level, 100 << (2 * (level - 3)), seed)) walls.add(level, link);
+    }
+    const TornLinks torn = walls.at(4);
+    Islands pieces = pieces_of(torn);
+    Particles<double> coarse(coarse_grid), fine(fine_grid);
+    each_node(coarse_grid, [&](int r, int c) {
+      const double piece = 1e3 * static_cast<double>(pieces.of(coarse_grid.index(r, c)));
+      set(coarse.position, r, c, {2 * kCell * c + piece, -2 * kCell * r, 0});
+    });
+    split(coarse, fine);
+    part_pieces(torn, 5, walls);
+    const TornLinks cut = walls.at(5);
+    mend_split(cut, {kCell, kCell}, fine);
+    double longest = 0;
+    each_node(fine_grid, [&](int r, int c) {
+      const auto measure = [&](int rows, int cols) {
+        if (r + rows >= fine_grid.rows || c + cols >= fine_grid.cols || cut.torn(Link{r, c, rows == 0}))
+          return;
+        longest =
+            std::max(longest, (get(fine.position, r, c) - get(fine.position, r + rows, c + cols)).norm());
+      };
+      measure(0, 1);
+      measure(1, 0);
+    });
+    EXPECT_LT(longest, 5 * kCell) << "seed " << seed;
+  }
 }
 
 TEST(MergeTornMomentum, KeepsTheSidesApartAndIsTheOrdinaryOneOfAWholeSheet) {
