@@ -6,15 +6,17 @@
 namespace weft {
 namespace {
 
-/// Longest parts where cloth touches cloth, s: of an implicit step that finds all of it together, and of
-/// others; what is longer by a tenth of a part is rounding.
-constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kRounding = 0.1;
+/// Longest parts where cloth touches cloth, s: of an implicit step that finds all of it together, of others,
+/// and of explicit ones among several cloths; what is longer by a tenth of a part is rounding.
+constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kLongestInTurn = 1.0 / 240, kRounding = 0.1;
 /// Farthest that pins go in a part, as a part of the cloth's larger side, and most parts made for that.
 constexpr double kFarthest = 0.5, kMostForPins = 8;
 
 template <class Real>
 double parts_for_contact(const Cloth<Real>& cloth, bool alone, double dt) {
-  return dt / (alone && cloth.steps_implicitly() ? kLongest : kLongestApart);
+  const bool implicit = cloth.steps_implicitly();
+  if (alone) return dt / (implicit ? kLongest : kLongestApart);
+  return dt / (implicit ? kLongestApart : kLongestInTurn);
 }
 
 template <class Real>
