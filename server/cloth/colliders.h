@@ -54,6 +54,8 @@ struct Obstacle {
   std::optional<RigidBody> body;
   BodyRest rest;  ///< if it flies
 
+  /// Puts it there.
+  void take(const Pose& place);
   /// Dynamic, asleep or not.
   bool flies() const { return body && body->dynamic(); }
   bool awake() const { return flies() && !rest.asleep(); }

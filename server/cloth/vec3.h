@@ -11,4 +11,7 @@ using Quaternion = Eigen::Quaterniond;
 /// Standard gravity's direction and size, m/s2.
 inline Vec3 standard_gravity() { return {0.0, -9.81, 0.0}; }
 
+/// What of it is across the unit vector.
+inline Vec3 across(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * unit; }
+
 }  // namespace weft

@@ -10,40 +10,8 @@
 namespace weft {
 namespace {
 
-/// Stiffness of a contact, as multiples of the links' and of the inertia's at the node. More would cost
-/// digits in single precision; the inertia's alone leaves a depth of at most g h^2 / 100 under a cloth's own
-/// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
-constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
-
 /// What is nearer lies on a solid: gravity could bring them together again, m.
 double touching_distance(double seconds) { return standard_gravity().norm() * seconds * seconds; }
-
-const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solids) {
-  return *std::find_if(solids.begin(), solids.end(),
-                       [&](const Solid& each) { return each.id == touch.collider; });
-}
-
-/// The part of v that is tangential.
-Vec3 along(const Vec3& normal, const Vec3& v) { return v - v.dot(normal) * normal; }
-
-/// along n n^T + across (I - n n^T).
-Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
-  const double both = along - across;
-  const double xy = both * n.x() * n.y(), xz = both * n.x() * n.z(), yz = both * n.y() * n.z();
-  return Eigen::Matrix3d{{across + both * n.x() * n.x(), xy, xz},
-                         {xy, across + both * n.y() * n.y(), yz},
-                         {xz, yz, across + both * n.z() * n.z()}};
-}
-
-template <class Real>
-void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Eigen::Matrix3d& block) {
-  blocks.xx[i] += static_cast<Real>(block(0, 0));
-  blocks.xy[i] += static_cast<Real>(block(0, 1));
-  blocks.xz[i] += static_cast<Real>(block(0, 2));
-  blocks.yy[i] += static_cast<Real>(block(1, 1));
-  blocks.yz[i] += static_cast<Real>(block(1, 2));
-  blocks.zz[i] += static_cast<Real>(block(2, 2));
-}
 
 }  // namespace
 
@@ -128,7 +96,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   const double holds = held ? solid.friction * same->usual_force() : 0.0;
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
-  const double slid = along(normal, slip).norm();
+  const double slid = across(slip, normal).norm();
   Constraint made{touch,
                   std::nullopt,
                   Vec3(0, 0, 0),
@@ -149,7 +117,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
     made.speeding_up = speeding_up(*same, slid, holds, mass);
     made.sliding += std::max(0.0, std::min(made.speeding_up, same->speeding_up));
   }
-  if (held && near_rest_) made.grip = along(normal, same->grip);
+  if (held && near_rest_) made.grip = across(same->grip, normal);
   if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
   return made;
 }
@@ -176,11 +144,6 @@ double ContactConstraints<Real>::speeding_up(const Constraint& last, double slid
   if (slid == 0) return 0;  // stopped since then (settle): what pulled at it is no measure of what will
   const double h = substep_.seconds;
   return slid - last.slid + (last.grip.norm() - holds) * h * h / mass;
-}
-
-template <class Real>
-Vec3 ContactConstraints<Real>::friction(const Constraint& c, const Vec3& moved) {
-  return c.grip + c.friction_stiffness * along(c.normal, c.solid_move - moved);
 }
 
 /// This solid, or one that faces it, holds the node.
@@ -302,105 +265,6 @@ std::optional<int> ContactConstraints<Real>::body_of(const Solid& solid, const s
   const double h = substep_.seconds, inertia = 1 / (solid.inverse_mass * h * h);
   if (!solid.yields_turning()) return bodies.add(inertia);
   return bodies.add(inertia, solid.inverse_inertia.inverse() / (h * h));
-}
-
-/// As seen from a solid whose way is not bent.
-template <class Real>
-Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<const Real> move,
-                                       const AttachedBodies<Real>& bodies) {
-  const Vec3 moved = at(move, c.touch.node);
-  return c.body ? Vec3(moved - bodies.move(*c.body, c.arm)) : moved;
-}
-
-template <class Real>
-void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
-                                      AttachedBodies<Real>& bodies, const Real* diagonal,
-                                      double links_stiffness, kernels::Components<const Real> move) {
-  bodies.detach();
-  for (Constraint& c : constraints_) {
-    if (c.released) continue;
-    const std::size_t i = c.touch.node;
-    c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
-    const Vec3 moved = move_of(c, move, bodies);
-    // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
-    const bool slides = c.holds < c.stiffness * c.sliding;
-    c.friction_stiffness = slides ? c.holds / c.sliding : c.holds > 0 ? c.stiffness : 0;
-    if (slides) c.grip.setZero();
-    const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
-    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + friction(c, moved);
-    add_block(blocks, i, stiffness);
-    add(b, i, force);
-    if (c.body) bodies.attach(*c.body, i, c.arm, stiffness, force);
-  }
-  bodies.eliminate(b);
-}
-
-template <class Real>
-void ContactConstraints<Real>::append_springs(kernels::Components<const Real> move,
-                                              kernels::Components<const Real> change,
-                                              const AttachedBodies<Real>& bodies,
-                                              std::vector<OneSidedSpring>& springs) const {
-  for (const Constraint& c : constraints_) {
-    if (c.pinched) continue;
-    Vec3 way = at(change, c.touch.node);
-    if (c.body) way -= bodies.change(*c.body, c.arm);
-    springs.push_back(
-        {c.distance - c.normal.dot(move_of(c, move, bodies)), -c.normal.dot(way), c.stiffness, !c.released});
-  }
-}
-
-template <class Real>
-double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move,
-                                                 const AttachedBodies<Real>& bodies) {
-  double energy = 0;
-  for (Constraint& c : constraints_) {
-    const double beyond = c.normal.dot(move_of(c, move, bodies)) - c.distance;
-    if (c.pinched || c.released == (beyond > 0)) continue;
-    c.released = !c.released;
-    energy += c.stiffness * beyond * beyond / 2;
-  }
-  return energy;
-}
-
-template <class Real>
-const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<const Real> move,
-                                                           const AttachedBodies<Real>& bodies,
-                                                           std::vector<Solid>& solids) {
-  pressed_.clear();
-  kept_aside_.clear();
-  for (Constraint& c : constraints_) {
-    const Vec3 moved = move_of(c, move, bodies);
-    const double depth = c.distance - c.normal.dot(moved);
-    c.grip = friction(c, moved);
-    c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
-    if (c.body && c.force > 0) pressed_.push_back(c.touch);
-    const bool turning = c.body && solid_of(c.touch, solids).yields_turning();
-    // What goes less than half through is not held on the far side. A node of a swinging sheet that cut 4 mm
-    // of a box's edge, put back onto the face that it came from, stretched its links by 0.88 (S54b, BDF2).
-    const bool near = !c.body && (moved - c.solid_move).squaredNorm() < c.width * c.width;
-    if (turning || near) kept_aside_.push_back(c.touch);
-  }
-  solids = bent(std::move(solids), bodies);
-  return pressed_;
-}
-
-template <class Real>
-std::vector<Solid> ContactConstraints<Real>::bent(std::vector<Solid> solids,
-                                                  const AttachedBodies<Real>& bodies) const {
-  for (std::size_t body = 0; body < yielding_.size(); ++body) {
-    Solid& solid = solids[yielding_[body]];
-    const int index = static_cast<int>(body);
-    solid.go_on(solid.velocity + bodies.move(index) / substep_.seconds,
-                solid.spin + bodies.turn(index) / substep_.seconds, substep_.from, substep_.step_seconds());
-  }
-  return solids;
-}
-
-template <class Real>
-void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
-  for (const Constraint& c : constraints_) {
-    if (!c.released) add(velocity, c.touch.node, -c.led_out / substep_.seconds * c.normal);
-  }
 }
 
 template class ContactConstraints<float>;

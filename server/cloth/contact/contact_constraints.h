@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 
 #include "cloth/contact/contact.h"
@@ -7,6 +8,12 @@
 #include "cloth/solver/one_sided_springs.h"
 
 namespace weft {
+
+/// The solid that the node touches, one of these.
+inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solids) {
+  return *std::find_if(solids.begin(), solids.end(),
+                       [&](const Solid& each) { return each.id == touch.collider; });
+}
 
 /// Contacts as a part of an implicit step's linear system. A node that touches a solid or will in the step is
 /// held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along with the

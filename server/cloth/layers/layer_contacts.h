@@ -14,9 +14,6 @@ namespace weft {
 /// Part of what layers lack of their gap that they are led apart in a step.
 inline constexpr double kLayersLedApart = 0.1;
 
-/// What of it is across the unit vector.
-inline Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
-
 /// Two features of cloth that lie on each other or will in the step.
 struct LayerPair {
   FeaturePair features;
