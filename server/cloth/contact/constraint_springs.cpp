@@ -14,6 +14,11 @@ namespace {
 /// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
 constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
 
+/// At most so many times the inertia of a torn piece is a contact's part of the links. A flake of a node or
+/// two has but its inertia along a surface, and the last digits of the stiffness across it: with all of it
+/// some that lay on a plane were taken tens of metres away in a step.
+constexpr double kPieceMultiple = 1e4;
+
 /// along n n^T + across (I - n n^T).
 Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
   const double both = along - across;
@@ -51,12 +56,16 @@ Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<
 template <class Real>
 void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
                                       AttachedBodies<Real>& bodies, const Real* diagonal,
-                                      double links_stiffness, kernels::Components<const Real> move) {
+                                      double links_stiffness, const std::vector<double>& piece_mass,
+                                      kernels::Components<const Real> move) {
   bodies.detach();
+  const double inertia_rate = kPieceMultiple / (substep_.seconds * substep_.seconds);
   for (Constraint& c : constraints_) {
     if (c.released) continue;
     const std::size_t i = c.touch.node;
-    c.stiffness = kLinkMultiple * links_stiffness + kInertiaMultiple * double(diagonal[i]);
+    const double links =
+        piece_mass.empty() ? links_stiffness : std::min(links_stiffness, inertia_rate * piece_mass[i]);
+    c.stiffness = kLinkMultiple * links + kInertiaMultiple * double(diagonal[i]);
     const Vec3 moved = move_of(c, move, bodies);
     // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
     const bool slides = c.holds < c.stiffness * c.sliding;
@@ -144,7 +153,7 @@ template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Com
                                                  const AttachedBodies<float>&);
 template void ContactConstraints<float>::add_to(kernels::Blocks<float>, kernels::Components<float>,
                                                 AttachedBodies<float>&, const float*, double,
-                                                kernels::Components<const float>);
+                                                const std::vector<double>&, kernels::Components<const float>);
 template void ContactConstraints<float>::append_springs(kernels::Components<const float>,
                                                         kernels::Components<const float>,
                                                         const AttachedBodies<float>&,
@@ -162,6 +171,7 @@ template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Co
                                                   const AttachedBodies<double>&);
 template void ContactConstraints<double>::add_to(kernels::Blocks<double>, kernels::Components<double>,
                                                  AttachedBodies<double>&, const double*, double,
+                                                 const std::vector<double>&,
                                                  kernels::Components<const double>);
 template void ContactConstraints<double>::append_springs(kernels::Components<const double>,
                                                          kernels::Components<const double>,

@@ -70,9 +70,10 @@ class ContactConstraints {
 
   /// Adds the constraints to the system of a Newton iteration at `move`. `links_stiffness` is the sum of the
   /// link stiffnesses at a node, N/m, and `diagonal` the system's: together they set how stiff the springs
-  /// are.
+  /// are, held to what the masses of torn pieces bear, `piece_mass`, kg, by node; empty if it is whole.
   void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, AttachedBodies<Real>& bodies,
-              const Real* diagonal, double links_stiffness, kernels::Components<const Real> move);
+              const Real* diagonal, double links_stiffness, const std::vector<double>& piece_mass,
+              kernels::Components<const Real> move);
   /// Appends the constraints as they are at `move` along `change`.
   void append_springs(kernels::Components<const Real> move, kernels::Components<const Real> change,
                       const AttachedBodies<Real>& bodies, std::vector<OneSidedSpring>& springs) const;

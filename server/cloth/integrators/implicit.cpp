@@ -4,6 +4,7 @@
 
 #include "cloth/clock.h"
 #include "cloth/solver/node_vector.h"
+#include "cloth/tear/pieces.h"
 
 namespace weft {
 namespace {
@@ -108,6 +109,10 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     }
     state_->motion = MotionScale<Real>(*forces.springs, particles.mass, h);
   }
+  if (state_->torn != forces.springs->torn()) {
+    state_->torn = forces.springs->torn();
+    state_->piece_mass = state_->torn ? piece_masses(*state_->torn, particles) : std::vector<double>();
+  }
   if (state_->soft) forces.springs = &*state_->soft;
   if (forces.layers == nullptr) state_->system.couplings().clear();
   if (forces.gas == nullptr) state_->system.set_rank_one(0, {});
@@ -165,7 +170,7 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   }
   if (!memory_->contacts.empty()) {
     memory_->contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
-                             forces.springs->node_stiffness(), s.move);
+                             forces.springs->node_stiffness(), s.piece_mass, s.move);
   }
   if (forces.layers != nullptr) {
     forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);

@@ -79,11 +79,13 @@ class Implicit final : public Integrator<Real> {
     /// Share of their stiffness that softened springs keep. They are allowed that share of the error: they
     /// would stretch by as much more than the cloth's with the same energy.
     double kept_stiffness = 1;
-    double stretched_to_twice = 0;  ///< J, that all springs hold at their double length
-    MotionScale<Real> motion;       ///< as the substep begins
-    SolveTarget target;             ///< of the substep's solves
-    bool smooth = true;             ///< the substep was not taken back
-    bool sound = true;              ///< a move was found in every substep of the step
+    std::shared_ptr<const TornLinks> torn;  ///< what `piece_mass` is of; nullptr while it is whole
+    std::vector<double> piece_mass;         ///< piece_masses; empty while it is whole
+    double stretched_to_twice = 0;          ///< J, that all springs hold at their double length
+    MotionScale<Real> motion;               ///< as the substep begins
+    SolveTarget target;                     ///< of the substep's solves
+    bool smooth = true;                     ///< the substep was not taken back
+    bool sound = true;                      ///< a move was found in every substep of the step
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);

@@ -1,6 +1,7 @@
 #include "cloth/tear/pieces.h"
 
 #include <deque>
+#include <limits>
 
 #include "cloth/islands.h"
 
@@ -21,12 +22,36 @@ void for_each_link(const TornLinks& torn, Visit visit) {
   }
 }
 
+/// By node.
+Islands pieces_of(const TornLinks& torn) {
+  Islands pieces(torn.grid().size());
+  for_each_link(torn, [&](const Link&, std::size_t a, std::size_t b) { pieces.join(a, b); });
+  return pieces;
+}
+
 }  // namespace
+
+template <class Real>
+std::vector<double> piece_masses(const TornLinks& torn, const Particles<Real>& particles) {
+  Islands pieces = pieces_of(torn);
+  const Grid& grid = torn.grid();
+  std::vector<double> masses(grid.size(), 0.0);
+  const auto for_each_node = [&](const auto& visit) {
+    for (int r = 0; r < grid.rows; ++r) {
+      for (std::size_t i = grid.index(r, 0), end = grid.index(r, grid.cols); i < end; ++i) visit(i);
+    }
+  };
+  const Real *mass = particles.mass.row(0), *inverse = particles.inverse_mass.row(0);
+  for_each_node([&](std::size_t i) {
+    masses[pieces.of(i)] += inverse[i] > Real(0) ? double(mass[i]) : std::numeric_limits<double>::infinity();
+  });
+  for_each_node([&](std::size_t i) { masses[i] = masses[pieces.of(i)]; });
+  return masses;
+}
 
 void part_pieces(const TornLinks& coarse, int level, Walls& walls) {
   const Grid& grid = coarse.grid();
-  Islands pieces(grid.size());
-  for_each_link(coarse, [&](const Link&, std::size_t a, std::size_t b) { pieces.join(a, b); });
+  Islands pieces = pieces_of(coarse);
 
   const TornLinks fine = walls.at(level);
   std::vector<std::vector<std::size_t>> neighbours(fine.grid().size());
@@ -56,5 +81,8 @@ void part_pieces(const TornLinks& coarse, int level, Walls& walls) {
     if (piece[a] != piece[b]) walls.add(level, link);
   });
 }
+
+template std::vector<double> piece_masses(const TornLinks&, const Particles<float>&);
+template std::vector<double> piece_masses(const TornLinks&, const Particles<double>&);
 
 }  // namespace weft

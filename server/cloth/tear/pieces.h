@@ -1,4 +1,7 @@
 #pragma once
+#include <vector>
+
+#include "cloth/particles.h"
 #include "cloth/tear/walls.h"
 
 namespace weft {
@@ -9,5 +12,9 @@ namespace weft {
 /// finer one a link does. Afterwards two nodes that both grids have hang together on the one as they do on
 /// the other.
 void part_pieces(const TornLinks& coarse, int level, Walls& walls);
+
+/// Of the piece that each node hangs together with, by index, kg; infinite where that is pinned.
+template <class Real>
+std::vector<double> piece_masses(const TornLinks& torn, const Particles<Real>& particles);
 
 }  // namespace weft

@@ -172,6 +172,24 @@ TEST(PartPieces, WhatHasComeApartStaysApart) {
   EXPECT_GT(joined, 0) << "nothing to part";
 }
 
+// Row 7 of 17 parted from row 8, and of the upper half the last of 9 columns from the rest: 8 x 8 nodes, 8 x
+// 1 and the lower half, which is held.
+TEST(PieceMasses, AreOfWhatHangsTogether) {
+  const Grid grid = kBase.at(3);
+  Walls walls(kBase, 5);
+  for (int c = 0; c < grid.cols; ++c) walls.add(3, {7, c, false});
+  for (int r = 0; r < 8; ++r) walls.add(3, {r, 7, true});
+  Particles<float> particles(grid);
+  particles.mass.fill(0.5F);
+  particles.inverse_mass.fill(2);
+  particles.inverse_mass.at(16, 3) = 0;
+  const std::vector<double> masses = piece_masses(walls.at(3), particles);
+  each_node(grid, [&](int r, int c) {
+    const double lower = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(masses[grid.index(r, c)], r > 7 ? lower : c == 8 ? 4 : 32) << r << ' ' << c;
+  });
+}
+
 TEST(MendSplit, PutsNewNodesWhereTheirOwnSideGoesOn) {
   // A flat sheet in two halves, the lower one 3 m further down and moving: on both sides of the tear the new
   // nodes must lie on their own half's lattice, bit for bit but for rounding, and move as it does.
