@@ -21,8 +21,8 @@ bool stands_still(const Cloth<Real>& cloth) {
   return cloth.asleep() || cloth.frozen();
 }
 
-double half_a_cell(const ClothDescription& cloth, const Grid& grid) {
-  return std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1)) / 2;
+double shorter_side_of_cell(const ClothDescription& cloth, const Grid& grid) {
+  return std::min(cloth.size.x() / (grid.cols - 1), cloth.size.y() / (grid.rows - 1));
 }
 
 /// What goes on in the next step of an acceleration: no more than a weight presses with. A floor's blow does
@@ -46,13 +46,15 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   torn_.assign(cloths.size(), nullptr);
   nodes_ = {};
   gaps_.clear();
+  cells_.clear();
   contacts_.clear();
   double least = parameters_.thickness;
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     nodes_.first.push_back(count);
     count += static_cast<std::uint32_t>(grids[i].size());
-    gaps_.push_back(std::min(parameters_.thickness, half_a_cell(cloths[i].description(), grids[i])));
+    cells_.push_back(shorter_side_of_cell(cloths[i].description(), grids[i]));
+    gaps_.push_back(std::min(parameters_.thickness, cells_.back() / 2));
     least = std::min(least, gaps_.back());
   }
   nodes_.first.push_back(count);
@@ -232,6 +234,7 @@ void Layers<Real>::take_state(const Layers* other, std::vector<Cloth<Real>>& clo
   on_solid_ = other->on_solid_;
   left_out_ = other->left_out_;
   found_ = other->found_;
+  cells_passed_ = other->cells_passed_;
   may_be_tangled_ = other->may_be_tangled_;
   tangled_ = other->tangled_;
 }

@@ -36,6 +36,9 @@ class Layers {
 
   /// Nodes that are left alone, as the last step began.
   int tangled_nodes() const { return tangled_; }
+  /// Fastest that a cloth goes past or towards another one that it is near, as the last step began, in the
+  /// narrower of their cells a second.
+  double cells_passed() const { return cells_passed_; }
   /// In the last step more of the cloth lay in one place than is kept apart (FeatureSearch).
   bool crowded(std::size_t cloth) const { return crowded_[cloth] != 0; }
 
@@ -51,6 +54,8 @@ class Layers {
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   /// Tells the cloths in what company they are; islands are of those that pairs join.
   void let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const;
+  /// Of a pair of two cloths, for cells_passed().
+  double pass(const LayerPair& pair) const;
   /// A sleeping cloth that it joins is to wake.
   bool rouses(const LayerPair& pair) const;
   std::size_t sheet_of(std::uint32_t node) const;
@@ -58,6 +63,7 @@ class Layers {
   ClothContactEffect parameters_;
   std::vector<Grid> grids_;
   std::vector<double> gaps_;                            ///< of each cloth, m
+  std::vector<double> cells_;                           ///< of each cloth, the shorter side, m
   std::vector<std::shared_ptr<const TornLinks>> torn_;  ///< of each cloth; nullptr while it is whole
   LayerNodes nodes_;
   FeatureSearch search_;
@@ -68,6 +74,7 @@ class Layers {
   std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
   std::vector<char> crowded_;   ///< by cloth, in the last step
   bool found_ = false;          ///< pairs, at these levels
+  double cells_passed_ = 0;
   bool may_be_tangled_ = true;
   int tangled_ = 0;
 };

@@ -77,6 +77,15 @@ bool Layers<Real>::rouses(const LayerPair& pair) const {
 }
 
 template <class Real>
+double Layers<Real>::pass(const LayerPair& pair) const {
+  Vec3 relative(0, 0, 0);
+  for (std::size_t i = 0; i < 4; ++i)
+    relative += pair.near.weight[i] * nodes_.velocity[pair.features.node[i]];
+  const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
+  return relative.norm() / std::min(cells_[one], cells_[other]);
+}
+
+template <class Real>
 void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
   std::vector<std::vector<LayerPair>> shares(cloths.size());
@@ -86,6 +95,7 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
     const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
     if (implicitly(one) == with_implicit) shares[one].push_back(pair);
     if (other == one) return;
+    cells_passed_ = std::max(cells_passed_, pass(pair));
     islands.join(one, other);
     if (implicitly(other) == with_implicit) shares[other].push_back(pair);
     if (with_implicit != implicitly(one) && with_implicit != implicitly(other)) return;
@@ -93,6 +103,7 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
       if (cloths[sheet].asleep() && rouses(pair)) cloths[sheet].wake();
     }
   };
+  cells_passed_ = 0;
   bool all_implicit = true;
   for (std::size_t i = 0; i < cloths.size(); ++i) all_implicit = all_implicit && implicitly(i);
   const double widest = (all_implicit ? 1 : kAslant) * *std::max_element(gaps_.begin(), gaps_.end());
@@ -150,10 +161,12 @@ void Layers<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands)
 
 template std::size_t Layers<float>::sheet_of(std::uint32_t) const;
 template bool Layers<float>::rouses(const LayerPair&) const;
+template double Layers<float>::pass(const LayerPair&) const;
 template void Layers<float>::share_pairs(std::vector<Cloth<float>>&, double);
 template void Layers<float>::let_sleep(std::vector<Cloth<float>>&, Islands&) const;
 template std::size_t Layers<double>::sheet_of(std::uint32_t) const;
 template bool Layers<double>::rouses(const LayerPair&) const;
+template double Layers<double>::pass(const LayerPair&) const;
 template void Layers<double>::share_pairs(std::vector<Cloth<double>>&, double);
 template void Layers<double>::let_sleep(std::vector<Cloth<double>>&, Islands&) const;
 

@@ -41,6 +41,24 @@ TEST(StepsInParts, AreThoseOfClothsThatTouch) {
   EXPECT_EQ(substeps(apart, 15), 1);
 }
 
+// At most 4 cells a part by a sheet that goes past another one 4 mm under it: 3 cells a step are one part, 10
+// three, 14 four; 3 m above it as if it were alone.
+TEST(StepsInParts, AreThoseOfClothsThatGoPastEachOther) {
+  const auto passing = [](double cells, double apart) {
+    SimulationDescription scene = fall_together(4, Bdf2Description{});
+    scene.effects.erase(scene.effects.begin());  // gravity
+    scene.obstacles.clear();
+    const double cell = 1.0 / (scene.cloths[0].base_cells.at(4).cols - 1);
+    scene.cloths[1].position.y() = scene.cloths[0].position.y() + apart;
+    scene.cloths[1].velocity = {cells * cell * 60, 0, 0};
+    return scene;
+  };
+  EXPECT_EQ(substeps(passing(3, 0.004), 60), 1);
+  EXPECT_EQ(substeps(passing(10, 0.004), 60), 3);
+  EXPECT_EQ(substeps(passing(14, 0.004), 60), 4);
+  EXPECT_EQ(substeps(passing(14, 3), 60), 1);
+}
+
 // Of a sheet of 2 m whose edge goes to and fro at 50 m/s, with something solid: at most 1 m a part by
 // implicit methods. 50 / 60 m are one part, 50 / 30 two, 50 / 15 four, though it is back where it was at the
 // step's end, and 500 m/s eight.
