@@ -7,9 +7,8 @@ namespace weft {
 
 /// After split() (refine.h) of a torn cloth: new nodes whose means were taken across a wall are put where
 /// their own side of it goes on, straight on from the two nodes before, or, where there is one alone, at most
-/// `spacing` (m, along u and v) from it; they move as it does. A flake of new nodes alone stays where its first
-/// one is.
-/// `torn` is of the fine level. Mass is not touched.
+/// `spacing` (m, along u and v) from it; they move as it does. A flake of new nodes alone stays where its
+/// first one is. `torn` is of the fine level. Mass is not touched.
 template <class Real>
 void mend_split(const TornLinks& torn, const Vec2& spacing, Particles<Real>& fine);
 
