@@ -79,6 +79,9 @@ class Cloth {
     layers_ = layers;
     sleep_.set_company(Sleep::Company::none);
   }
+  /// At a step's end, of dt seconds: nodes that someone has moved since, from `before`, into a solid or
+  /// through one are brought back. Returns what met one, and counts it among touches().
+  std::vector<Touch> keep_outside(const VectorField<Real>& before, double dt);
   /// Someone has written to particles() since the last step: that state is the last good one now, if it is
   /// good.
   void moved_from_outside();

@@ -108,6 +108,17 @@ Contact<Real>& Cloth<Real>::contact() {
 }
 
 template <class Real>
+std::vector<Touch> Cloth<Real>::keep_outside(const VectorField<Real>& before, double dt) {
+  if (solids_.empty()) return {};
+  std::vector<Touch> touches = contact().touches();
+  std::sort(touches.begin(), touches.end());
+  contact().resolve(particles_, solids_, {1, 1, dt}, &before);
+  std::vector<Touch> met = contact().touches();
+  contact().keep(touches);
+  return met;
+}
+
+template <class Real>
 bool Cloth<Real>::meets(const Solid& solid, double dt) {
   const std::vector<Touch>& touches = contact().touches();
   return std::any_of(touches.begin(), touches.end(),
@@ -128,6 +139,7 @@ template AdvanceReport Cloth<float>::attempt(const Air&, double, double);
 template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
 template void Cloth<float>::forget_attempt();
 template Contact<float>& Cloth<float>::contact();
+template std::vector<Touch> Cloth<float>::keep_outside(const VectorField<float>&, double);
 template bool Cloth<float>::meets(const Solid&, double);
 template void Cloth<float>::push_balls(Colliders&) const;
 template bool Cloth<double>::unsettled(const std::vector<Solid>&);
@@ -138,6 +150,7 @@ template AdvanceReport Cloth<double>::attempt(const Air&, double, double);
 template const VectorField<float>* Cloth<double>::node_air(const Air&, double, double);
 template void Cloth<double>::forget_attempt();
 template Contact<double>& Cloth<double>::contact();
+template std::vector<Touch> Cloth<double>::keep_outside(const VectorField<double>&, double);
 template bool Cloth<double>::meets(const Solid&, double);
 template void Cloth<double>::push_balls(Colliders&) const;
 

@@ -39,6 +39,40 @@ double work_of_rounding(const Simulation<float>& simulation) {
   return stiffness * unit * unit / 12;
 }
 
+/// m, of a node in a solid, as of the hard cases (case.h).
+constexpr double kInside = 1e-5;
+
+/// How deep a place is in a solid that does not yield, m. What yields is pressed into nodes that it has met
+/// before; and what lies between two solids stays on one of them, however deep it is in the other.
+double depth_at(const Vec3& place, const std::vector<Solid>& solids) {
+  constexpr double kBetween = 1e-3;  // m
+  int near = 0;
+  double depth = 0;
+  for (const Solid& solid : solids) {
+    const PlacedShape placed = solid.placed(1);
+    if (!placed.may_touch(place, kBetween)) continue;
+    const double distance = placed.surface(place).distance;
+    if (distance < kBetween) ++near;
+    if (!solid.yields()) depth = std::max(depth, -distance);
+  }
+  return near == 1 ? depth : 0;
+}
+
+/// The deepest that a node which is not pinned is in a solid, m.
+double deepest_inside(const Simulation<float>& simulation) {
+  double deepest = 0;
+  for (const Cloth<float>& cloth : simulation.cloths()) {
+    const Particles<float>& state = cloth.particles();
+    for (int r = 0; r < state.grid().rows; ++r) {
+      for (int c = 0; c < state.grid().cols; ++c) {
+        if (state.inverse_mass.at(r, c) == 0) continue;
+        deepest = std::max(deepest, depth_at(state.position_at(r, c), simulation.colliders().solids()));
+      }
+    }
+  }
+  return deepest;
+}
+
 /// What is done to a scene while it runs, by its seed.
 class Commands {
  public:
@@ -136,6 +170,8 @@ std::optional<Failure> check(const SimulationDescription& scene) {
       if (!held_by_guard) return Failure{Failure::Kind::guard, *guarded + when};
     }
     if (held_by_guard) continue;
+    if (const double depth = deepest_inside(simulation); depth > kInside)
+      return Failure{Failure::Kind::inside, "a node " + std::to_string(depth) + " m inside a solid" + when};
     double put_in = commands.raised();
     if (setup.method == Method::symplectic_euler) put_in += work_of_rounding(simulation);
     bound.allowed += (1 + energy_room(setup.method)) * put_in;

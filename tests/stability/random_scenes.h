@@ -11,19 +11,19 @@ namespace weft::stability {
 SimulationDescription random_scene(std::uint64_t seed, int max_level);
 
 struct Failure {
-  enum class Kind { not_finite, guard, energy };
+  enum class Kind { not_finite, guard, inside, energy };
   Kind kind = Kind::not_finite;
   std::string what;  ///< with figures, for the reader
 };
 /// What is wrong with a scene, if anything is.
 using Check = std::function<std::optional<Failure>(const SimulationDescription&)>;
 
-/// Runs a scene for 2 s: something is not finite, the step guard had to take a step back, or there is more
-/// energy than gravity, wind, bodies, pressure, a hand and changes of level by the paper's rules can have
-/// brought in. A cloth of several levels goes up and down through them, a level every 1 + seed % 16 steps; by
-/// its seed a hand pulls it, effects are switched off and on again. A sheet under more pressure than its
-/// springs can balance may burst, beyond any bound, and has the guard hold it: from then on it is only to be
-/// finite.
+/// Runs a scene for 2 s: something is not finite, the step guard had to take a step back, a node that is not
+/// pinned ends a step inside a solid, or there is more energy than gravity, wind, bodies, pressure, a hand
+/// and changes of level by the paper's rules can have brought in. A cloth of several levels goes up and down
+/// through them, a level every 1 + seed % 16 steps; by its seed a hand pulls it, effects are switched off and
+/// on again. A sheet under more pressure than its springs can balance may burst, beyond any bound, and has
+/// the guard hold it: from then on it is only to be finite.
 std::optional<Failure> check(const SimulationDescription& scene);
 
 /// The smallest scene found with the same kind of failure, by taking things away from one that has it: balls,

@@ -16,6 +16,14 @@ constexpr double kNetPart = 0.1;
 /// one was put up to 1.1 mm into it in steps of 1/15 s (S51d).
 constexpr double kOnSolid = 0.1;
 
+/// Times that the net is made again with what solids have held up. Then the solids have the last word: what
+/// has to give way to both is rather in other cloth, which leads it out (untangle), than in a solid.
+constexpr int kNetRounds = 3;
+
+/// Inverse mass, to the net, of what a solid has held up, as a part of its own. Were it none, what has a
+/// small share in a meeting with it would go by the inverse of that share, 2 km once.
+constexpr double kHeldUp = 0.01;
+
 template <class Real>
 bool stands_still(const Cloth<Real>& cloth) {
   return cloth.asleep() || cloth.frozen();
@@ -200,9 +208,18 @@ void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
   read(cloths, nodes_.end);
   read_masses(cloths);
   weigh_down(cloths);
-  if (!net_.apply(search_, nodes_)) return;
+  for (int round = 0; round < kNetRounds; ++round) {
+    if (!net_.apply(search_, nodes_) || !move_on(cloths, dt)) return;
+  }
+  may_be_tangled_ = true;
+}
+
+template <class Real>
+bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
   const std::vector<Vec3>& untouched = net_.untouched_end();
+  bool met = false;
   for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const VectorField<Real> before = cloths[k].particles().position;
     bool changed = false;
     for (std::size_t i = 0; i < grids_[k].size(); ++i) {
       const std::size_t n = nodes_.first[k] + i;
@@ -214,8 +231,16 @@ void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
       contacts_[k]->struck().push_back(i);
       changed = true;
     }
-    if (changed) cloths[k].moved_from_outside();
+    if (!changed) continue;
+    for (const Touch& touch : cloths[k].keep_outside(before, dt)) {
+      const std::size_t n = nodes_.first[k] + touch.node;
+      nodes_.end[n] = at(kernels::components(std::as_const(cloths[k].particles().position)), touch.node);
+      nodes_.inverse_mass[n] *= kHeldUp;
+      met = true;
+    }
+    cloths[k].moved_from_outside();
   }
+  return met;
 }
 
 template <class Real>

@@ -27,7 +27,8 @@ class Layers {
 
   /// Before the cloths' step of dt seconds.
   void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
-  /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth.
+  /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth; but none
+  /// into a solid or through one.
   void end_step(std::vector<Cloth<Real>>& cloths, double dt);
 
   /// The state of `other`, of the same effect, whose cloths these are copies of; nullptr: there is none, it
@@ -51,6 +52,9 @@ class Layers {
   /// To the net, what goes on lying on solids is harder to move: it cannot give way into them.
   void weigh_down(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
+  /// What the net has moved, in the cloths. True if solids were in its way: then those nodes are where they
+  /// let them, here as well, and harder to move.
+  bool move_on(std::vector<Cloth<Real>>& cloths, double dt);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   /// Tells the cloths in what company they are; islands are of those that pairs join.
   void let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const;
