@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -179,14 +180,18 @@ SimulationDescription large_sheet() {
   return scene;
 }
 
+/// What is commanded before a step.
+using Commands = std::function<void(Simulation<float>& simulation, int step)>;
+
 /// The state's hash after each of so many steps; how many cloths have touched a ball on the way goes to
 /// `touched`.
 std::vector<std::uint64_t> simulate(const SimulationDescription& scene, int threads, int steps,
-                                    std::size_t* touched) {
+                                    std::size_t* touched, const Commands& command) {
   Simulation<float> simulation(scene);
   std::vector<std::uint64_t> hashes;
   on_threads(threads, [&] {
     for (int i = 0; i < steps; ++i) {
+      if (command) command(simulation, i);
       simulation.step();
       hashes.push_back(state_hash(simulation));
     }
@@ -200,16 +205,16 @@ std::vector<std::uint64_t> simulate(const SimulationDescription& scene, int thre
 
 /// At every step, on one thread and on several, `repeats` times.
 void expect_same_bits(SimulationDescription scene, const Integrators& integrators, int steps,
-                      std::size_t must_touch, int repeats = 1) {
+                      std::size_t must_touch, int repeats = 1, const Commands& command = {}) {
   for (const IntegratorDescription& integrator : integrators) {
     SCOPED_TRACE(name_of(integrator));
     scene.integrator = integrator;
     std::size_t touched = 0;
-    const std::vector<std::uint64_t> first = simulate(scene, 1, steps, &touched);
+    const std::vector<std::uint64_t> first = simulate(scene, 1, steps, &touched, command);
     EXPECT_GE(touched, must_touch);
     for (int repeat = 0; repeat < repeats; ++repeat) {
       for (const int threads : kThreads) {
-        const std::vector<std::uint64_t> again = simulate(scene, threads, steps, &touched);
+        const std::vector<std::uint64_t> again = simulate(scene, threads, steps, &touched, command);
         const auto differs = std::mismatch(first.begin(), first.end(), again.begin(), again.end()).first;
         EXPECT_EQ(differs - first.begin(), steps) << threads << " threads: the first step that differs";
       }
@@ -219,6 +224,21 @@ void expect_same_bits(SimulationDescription scene, const Integrators& integrator
 
 TEST(Threads, ClothsThatShareBallsHaveTheSameBitsOnAnyNumber) {
   expect_same_bits(stacked_sheets(), kAll, kStackSteps, 4, kRepeats);
+}
+
+TEST(Threads, CommandsLeaveTheSameBitsOnAnyNumber) {
+  const auto command = [](Simulation<float>& simulation, int step) {
+    if (step % 5 == 4) simulation.request_level(static_cast<std::size_t>(step % 4), 3 + step % 3);
+    if (step == 3) simulation.set_wind({{1, 0, 0}, 5});
+    if (step == 6) simulation.throw_ball(0, {0, 3, 1});
+    if (step == 8) {
+      BallDescription ball;
+      ball.position = {0.3, -0.3, 0};
+      ball.radius = 0.1;
+      simulation.add_ball(ball);
+    }
+  };
+  expect_same_bits(stacked_sheets(), kAll, kStackSteps / 3, 0, kRepeats, command);
 }
 
 TEST(Threads, ClothsInTurbulenceHaveTheSameBitsOnAnyNumber) {
