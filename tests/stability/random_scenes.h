@@ -19,11 +19,11 @@ struct Failure {
 using Check = std::function<std::optional<Failure>(const SimulationDescription&)>;
 
 /// Runs a scene for 2 s: something is not finite, the step guard had to take a step back, a node that is not
-/// pinned ends a step inside a solid, or there is more energy than gravity, wind, bodies, pressure, a hand
-/// and changes of level by the paper's rules can have brought in. A cloth of several levels goes up and down
-/// through them, a level every 1 + seed % 16 steps; by its seed a hand pulls it, effects are switched off and
-/// on again. A sheet under more pressure than its springs can balance may burst, beyond any bound, and has
-/// the guard hold it: from then on it is only to be finite.
+/// pinned ends a step inside a solid that does not yield, and not between two, or there is more energy than
+/// gravity, wind, bodies, pressure, a hand and changes of level by the paper's rules can have brought in. A
+/// cloth of several levels goes up and down through them, a level every 1 + seed % 16 steps; by its seed a
+/// hand pulls it, effects are switched off and on again. A sheet under more pressure than its springs can
+/// balance may burst, beyond any bound, and has the guard hold it: from then on it is only to be finite.
 std::optional<Failure> check(const SimulationDescription& scene);
 
 /// The smallest scene found with the same kind of failure, by taking things away from one that has it: balls,

@@ -17,9 +17,10 @@ namespace weft {
 /// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
 /// sheet would push each other.
 ///
-/// Cloth may begin entangled, and split, merge and settling may make it so. Nodes of triangles that an edge
-/// passes through are left alone, by contact and net, and led out of each other (untangling_moves) until none
-/// does; what is not entangled does not become so. Torn cells are not there (FeatureSearch).
+/// Cloth may begin entangled, and split, merge, settling and solids that leave it no other way may make it
+/// so. Nodes of triangles that an edge passes through are left alone, by contact and net, and led out of each
+/// other (untangling_moves) until none does; what is not entangled does not become so. Torn cells are not
+/// there (FeatureSearch).
 template <class Real>
 class Layers {
  public:
