@@ -39,9 +39,6 @@ double work_of_rounding(const Simulation<float>& simulation) {
   return stiffness * unit * unit / 12;
 }
 
-/// m, of a node in a solid, as of the hard cases (case.h).
-constexpr double kInside = 1e-5;
-
 /// How deep a place is in a solid that does not yield, m. What yields is pressed into nodes that it has met
 /// before; and what lies between two solids stays on one of them, however deep it is in the other.
 double depth_at(const Vec3& place, const std::vector<Solid>& solids) {
@@ -170,7 +167,7 @@ std::optional<Failure> check(const SimulationDescription& scene) {
       if (!held_by_guard) return Failure{Failure::Kind::guard, *guarded + when};
     }
     if (held_by_guard) continue;
-    if (const double depth = deepest_inside(simulation); depth > kInside)
+    if (const double depth = deepest_inside(simulation); depth > Expectation{}.penetration)
       return Failure{Failure::Kind::inside, "a node " + std::to_string(depth) + " m inside a solid" + when};
     double put_in = commands.raised();
     if (setup.method == Method::symplectic_euler) put_in += work_of_rounding(simulation);
