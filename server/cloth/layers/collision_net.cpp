@@ -13,9 +13,6 @@ namespace {
 constexpr int kImpulseRounds = 8, kRounds = 60;
 /// Pairs that come as near as so many gaps are looked at; and are found, so that nodes may be moved.
 constexpr double kInSight = 1.5, kMargin = 8;
-/// Pairs give way by no less than this part of what they would if all nodes were as light as the lightest.
-/// Where only a node of a small weight can move it would else go by the inverse of that; zones do the rest.
-constexpr double kLeastShare = 0.01;
 /// Mass of a pinned node to that of a free one, in a rigid zone.
 constexpr double kPinnedMass = 1e3;
 
@@ -42,17 +39,18 @@ bool CollisionNet::push_apart(const FeaturePair& pair, LayerNodes& nodes) {
   for (std::size_t i = 0; i < 4; ++i) points[i] = start[i] + *time * move[i];
   const Nearness near = nearness(pair.kind, points);
   const double distance = near.apart.norm();
-  double share = 0, weights = 0, lightest = 0;
+  double share = 0, largest = 0;
   Vec3 moved(0, 0, 0);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double weight = near.weight[i] * near.weight[i], inverse_mass = nodes.inverse_mass[pair.node[i]];
-    share += weight * inverse_mass;
-    weights += weight;
-    lightest = std::max(lightest, inverse_mass);
+    const double w = near.weight[i] * nodes.inverse_mass[pair.node[i]];
+    share += near.weight[i] * w;
+    largest = std::max(largest, std::abs(w));
     moved += near.weight[i] * move[i];
   }
   if (share == 0 || distance == 0) return true;
-  share = std::max(share, kLeastShare * weights * lightest);
+  // None goes farther than what is lacking. Of equal masses none would; but where only a node of a small
+  // weight can move, beside pinned ones, it would go by the inverse of that, and on from pair to pair.
+  share = std::max(share, largest);
   const Vec3 normal = near.apart / distance;
   // From the meeting on they are not to approach; and with a little room, so that they do not meet again.
   const double room = std::max(distance / 2, (2 * gap_ - distance) / 4);

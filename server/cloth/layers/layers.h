@@ -18,9 +18,8 @@ namespace weft {
 /// sheet would push each other.
 ///
 /// Cloth may begin entangled, and split, merge, settling and solids that leave it no other way may make it
-/// so. Nodes of triangles that an edge passes through are left alone, by contact and net, and led out of each
-/// other (untangling_moves) until none does; what is not entangled does not become so. Torn cells are not
-/// there (FeatureSearch).
+/// so; nothing else does. Nodes of triangles that an edge passes through are left alone, by contact and net,
+/// and led out of each other (untangling_moves) until none does. Torn cells are not there (FeatureSearch).
 template <class Real>
 class Layers {
  public:
