@@ -16,6 +16,7 @@ test('a restart of the server is survived', async () => {
   assert.equal(await page.isDisabled('#pause'), true);
   // It goes on trying while there is nobody.
   await page.waitForSelector('#banner >> text=No answer from');
+  const {eye} = await stats(page);  // where the key has led by now
 
   await startServer(['flag', 'zheng2020-distance'], {port: first.port});
   await page.waitForSelector('#banner', {state: 'hidden'});
@@ -27,6 +28,7 @@ test('a restart of the server is survived', async () => {
   await until(page, ({frames}) => weft.stats.frames > frames + 5 && weft.stats.cloths[0]?.level === 4, before);
   const after = await stats(page);
   assert.equal(after.scene, 'zheng2020-distance');
-  assert.deepEqual(after.eye, before.eye);
+  // The orbit's controls work the eye out anew for every picture: it is the same but for rounding.
+  after.eye.forEach((value, axis) => assert.ok(Math.abs(value - eye[axis]) < 1e-9, `eye at ${after.eye}, was at ${eye}`));
   assert.ok(after.lastFrame.time < before.lastFrame.time || after.lastFrame.epoch === 1, 'it is the new server’s clock');
 });
