@@ -4,7 +4,7 @@ import subprocess
 import tempfile
 import unittest
 
-from serving import BINARY, GENEROUS, SCENES, Server
+from serving import BINARY, GENEROUS, SANITIZED, SCENES, Server
 
 import weft
 
@@ -62,6 +62,10 @@ class Stopping(unittest.IsolatedAsyncioTestCase):
 
     def test_without_viewers_it_ends_too(self):
         server = self.start(SCENES / "hung.json")
+        if SANITIZED:
+            # ThreadSanitizer loses a signal that comes while a thread is about to block for the first time: a dozen lines
+            # with a handler and epoll_wait wait for ever as well. By the time it answers it has blocked.
+            self.assertEqual(server.get("/v1/scenes")[0], 200)
         server.terminate()
         self.assertEqual(server.process.wait(STOP_TIME), 0)
 
