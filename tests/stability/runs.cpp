@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <set>
 
 namespace weft::stability {
@@ -16,23 +15,18 @@ std::vector<int> step_rates(Method method) {
   return is_explicit ? std::vector<int>{60} : std::vector<int>{60, 30, 15};
 }
 
-constexpr int kFinest = 6;
-
-bool is_lowest(const HardRun& run) { return run.setup.level == run.hard_case->levels.front(); }
-
-/// The default integrator and XPBD, as a scene is stepped, but for cases of a day's length, of seconds of
-/// frames at level 6, or of a minute at level 5.
-bool is_usual(const HardRun& run) {
-  static const std::set<std::string> kSlow{"S13b", "S14a", "S14b", "S15", "S51b", "S51c", "S51d"};
-  const bool chosen = run.setup.method == Method::bdf2 || run.setup.method == Method::xpbd;
-  return chosen && run.setup.hz == 60 && !kSlow.contains(run.hard_case->name);
+std::vector<Setup> setups(int level) {
+  std::vector<Setup> all;
+  for (const Method method : kMethods) {
+    for (const int hz : step_rates(method)) all.push_back({method, level, hz});
+  }
+  return all;
 }
 
-std::vector<HardRun> chosen(const std::function<bool(const HardRun&)>& is_chosen) {
-  std::vector<HardRun> runs = all_runs();
-  std::erase_if(runs, std::not_fn(is_chosen));
-  return runs;
-}
+/// Their shortest runs take tens of seconds: left to the nightly tests.
+const std::set<std::string> kLongCases{"S11b", "S51b", "S51d"};
+
+bool is_every_fifth(std::size_t index) { return index % 5 == 0; }
 
 }  // namespace
 
@@ -46,24 +40,39 @@ std::vector<HardRun> all_runs() {
   for (Case& each : all_cases()) {
     const auto hard_case = std::make_shared<const Case>(std::move(each));
     for (const int level : hard_case->levels) {
-      for (const Method method : kMethods) {
-        for (const int hz : step_rates(method)) runs.push_back({hard_case, {method, level, hz}});
-      }
+      for (const Setup& setup : setups(level)) runs.push_back({hard_case, setup});
     }
   }
   return runs;
 }
 
-std::vector<HardRun> coarsest_runs() { return chosen(is_lowest); }
-
-std::vector<HardRun> finer_runs() {
-  return chosen(
-      [](const HardRun& run) { return !is_lowest(run) && is_usual(run) && run.setup.level < kFinest; });
+std::vector<HardRun> sample_runs() {
+  std::vector<HardRun> runs;
+  for (Case& each : all_cases()) {
+    if (kLongCases.contains(each.name)) continue;
+    const auto hard_case = std::make_shared<const Case>(std::move(each));
+    const std::vector<Setup> choice = setups(hard_case->levels.front());
+    runs.push_back({hard_case, choice[runs.size() % choice.size()]});
+  }
+  return runs;
 }
 
-std::vector<HardRun> finest_runs() {
-  return chosen(
-      [](const HardRun& run) { return !is_lowest(run) && is_usual(run) && run.setup.level == kFinest; });
+std::vector<HardRun> every_fifth(std::vector<HardRun> runs) {
+  std::size_t index = 0;
+  std::erase_if(runs, [&](const HardRun&) { return !is_every_fifth(index++); });
+  return runs;
+}
+
+std::vector<HardRun> all_but_every_fifth(std::vector<HardRun> runs) {
+  std::size_t index = 0;
+  std::erase_if(runs, [&](const HardRun&) { return is_every_fifth(index++); });
+  return runs;
+}
+
+std::vector<HardRun> coarsest_runs() {
+  std::vector<HardRun> runs = all_runs();
+  std::erase_if(runs, [](const HardRun& run) { return run.setup.level != run.hard_case->levels.front(); });
+  return runs;
 }
 
 }  // namespace weft::stability

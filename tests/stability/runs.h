@@ -20,12 +20,12 @@ inline void PrintTo(const HardRun& run, std::ostream* out) {
 
 /// All there are: explicit methods at 60 Hz, the others at 60, 30 and 15 Hz, at all of the case's levels.
 std::vector<HardRun> all_runs();
-/// Level 4, or the case's own lowest.
+/// Each case once, but the longest, at its lowest level, methods and rates in turn from case to case.
+std::vector<HardRun> sample_runs();
+/// Of these every fifth, or all but every fifth.
+std::vector<HardRun> every_fifth(std::vector<HardRun> runs);
+std::vector<HardRun> all_but_every_fifth(std::vector<HardRun> runs);
+/// All methods and rates at each case's lowest level.
 std::vector<HardRun> coarsest_runs();
-/// Of level 5, where that is not the lowest, the default integrator and XPBD at 60 Hz, but for the cases in
-/// which they take long.
-std::vector<HardRun> finer_runs();
-/// The same two of level 6, twice as much work as all before: with the nightly mode, but in CI's lengths.
-std::vector<HardRun> finest_runs();
 
 }  // namespace weft::stability

@@ -1,5 +1,5 @@
-// The hard cases (case.h), one test a run: Stability/* and Finer/*, level 5, are CI's part, Finest/* is level
-// 6 in the same lengths, Nightly/* all in full.
+// The hard cases (case.h), one test a run: Stability/* and Slow/* have each case once, Nightly/* all runs in
+// full length; under a sanitizer, whose affair is the code, Nightly/* has the coarsest levels alone.
 #include <gtest/gtest.h>
 
 #include "open_failures.h"
@@ -30,10 +30,15 @@ TEST_P(HardCase, Survives) {
 
 std::string test_name(const ::testing::TestParamInfo<HardRun>& info) { return name_of(info.param); }
 
-INSTANTIATE_TEST_SUITE_P(Stability, HardCase, ::testing::ValuesIn(coarsest_runs()), test_name);
-INSTANTIATE_TEST_SUITE_P(Finer, HardCase, ::testing::ValuesIn(finer_runs()), test_name);
-INSTANTIATE_TEST_SUITE_P(Finest, HardCase, ::testing::ValuesIn(finest_runs()), test_name);
-INSTANTIATE_TEST_SUITE_P(Nightly, HardCase, ::testing::ValuesIn(all_runs()), test_name);
+#ifdef WEFT_SANITIZED
+std::vector<HardRun> nightly_runs() { return coarsest_runs(); }
+#else
+std::vector<HardRun> nightly_runs() { return all_runs(); }
+#endif
+
+INSTANTIATE_TEST_SUITE_P(Stability, HardCase, ::testing::ValuesIn(every_fifth(sample_runs())), test_name);
+INSTANTIATE_TEST_SUITE_P(Slow, HardCase, ::testing::ValuesIn(all_but_every_fifth(sample_runs())), test_name);
+INSTANTIATE_TEST_SUITE_P(Nightly, HardCase, ::testing::ValuesIn(nightly_runs()), test_name);
 
 }  // namespace
 }  // namespace weft::stability

@@ -37,7 +37,7 @@ double volume_after(const SimulationDescription& scene, double seconds) {
 // lacks some volume in proportion to that size. Which of its many equilibria a bag finds is chance, worth
 // 0.003 m3 at level 4: several are blown up, each with offsets of its own, as a perfectly flat one is no
 // usual one.
-TEST(Pillow, HoldsWhatASquareTeabagHolds) {
+TEST(PillowNightly, HoldsWhatASquareTeabagHolds) {
   constexpr int kBags = 3;
   const auto held = [](int level) {
     double sum = 0;

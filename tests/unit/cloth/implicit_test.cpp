@@ -233,7 +233,7 @@ TEST(Implicit, WildMotionGainsNoEnergy) {
 // A flat sheet that nothing pulls has only forces of rounding, about 6e-8 of its place times the stiffness:
 // springs that are so off hold 4e-9 J each. (It flew apart with 3 to 8 J where energies that differ by
 // rounding passed for a gain.)
-TEST(Implicit, StiffSheetAtRestStaysThere) {
+TEST(ImplicitSlow, StiffSheetAtRestStaysThere) {
   for (const IntegratorDescription& stepping :
        {IntegratorDescription(Bdf2Description{}), IntegratorDescription(BackwardEulerDescription{})}) {
     for (const double stiffness : {1e5, 6e5, 3e6}) {

@@ -173,7 +173,7 @@ SimulationDescription on_a_turntable(const IntegratorDescription& integrator) {
   return scene;
 }
 
-TEST(TurningTable, TakesTheClothAlong) {
+TEST(TurningTableSlow, TakesTheClothAlong) {
   // At its corners, 0.57 m out, w^2 r = 2.3 m/s2 needs less than friction's 4.9: it does not slide in the
   // end.
   for (const IntegratorDescription& integrator :

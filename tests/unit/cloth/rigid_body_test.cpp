@@ -227,7 +227,7 @@ TEST_P(SheetAndBox, GainNoEnergyWhenTheyHit) {
   gain_no_energy(hit_sheet(GetParam().mass, GetParam().integrator));
 }
 
-TEST(DynamicBox, ItsEdgesAndCornersBringInNoEnergy) {
+TEST(DynamicBoxSlow, ItsEdgesAndCornersBringInNoEnergy) {
   // They pass nodes on their way, whose own straight ways would cut them.
   for (const IntegratorDescription& integrator :
        {IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {

@@ -153,8 +153,7 @@ TEST(Gas, GoesOnFromWhatIsThereIfItIsChanged) {
 
 // An implicit step blows a bag up by itself; as motion of an explicit one it would crumple it.
 class GasAtOnce : public ::testing::TestWithParam<IntegratorDescription> {};
-INSTANTIATE_TEST_SUITE_P(Explicit, GasAtOnce,
-                         ::testing::Values(SymplecticEulerDescription{}, XpbdDescription{}));
+INSTANTIATE_TEST_SUITE_P(Slow, GasAtOnce, ::testing::Values(SymplecticEulerDescription{}, XpbdDescription{}));
 
 TEST_P(GasAtOnce, BlowsABagUpWithoutMotionAsSmoothAsGasPouredIn) {
   const auto blown_up = [](double fill_time, int steps) {

@@ -62,8 +62,27 @@ constexpr Stepping kBdf2{"bdf2", Bdf2Description{}},
 INSTANTIATE_TEST_SUITE_P(Methods, SelfContact, ::testing::Values(kBdf2, kBackwardEuler, kXpbd),
                          [](const auto& tested) { return tested.param.name; });
 
-class SelfContactFriction : public SelfContact {};
-INSTANTIATE_TEST_SUITE_P(Methods, SelfContactFriction,
+/// Falls that last some seconds of processor time each.
+class SelfContactSlow : public SelfContact {};
+INSTANTIATE_TEST_SUITE_P(Methods, SelfContactSlow, ::testing::Values(kBdf2, kBackwardEuler, kXpbd),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// By method and number of falls.
+class SelfContactFolds : public ::testing::TestWithParam<std::tuple<Stepping, int>> {};
+std::string method_of(const ::testing::TestParamInfo<std::tuple<Stepping, int>>& tested) {
+  return std::get<0>(tested.param).name;
+}
+INSTANTIATE_TEST_SUITE_P(Slow, SelfContactFolds,
+                         ::testing::Combine(::testing::Values(kBdf2, kBackwardEuler, kXpbd),
+                                            ::testing::Values(1)),
+                         method_of);
+INSTANTIATE_TEST_SUITE_P(Nightly, SelfContactFolds,
+                         ::testing::Combine(::testing::Values(kBdf2, kBackwardEuler, kXpbd),
+                                            ::testing::Values(8)),
+                         method_of);
+
+class SelfContactFrictionSlow : public SelfContact {};
+INSTANTIATE_TEST_SUITE_P(Methods, SelfContactFrictionSlow,
                          ::testing::Values(kBdf2, kBackwardEuler, kXpbd, kSymplecticEuler),
                          [](const auto& tested) { return tested.param.name; });
 
@@ -72,7 +91,7 @@ class SelfContactWrung : public ::testing::TestWithParam<std::tuple<Stepping, in
 std::string method_and_level(const ::testing::TestParamInfo<std::tuple<Stepping, int>>& tested) {
   return std::get<0>(tested.param).name + ("_L" + std::to_string(std::get<1>(tested.param)));
 }
-INSTANTIATE_TEST_SUITE_P(Methods, SelfContactWrung,
+INSTANTIATE_TEST_SUITE_P(Slow, SelfContactWrung,
                          ::testing::Combine(::testing::Values(kBdf2, kBackwardEuler, kXpbd),
                                             ::testing::Values(4)),
                          method_and_level);
@@ -121,7 +140,7 @@ void expect_no_crossing_in_a_heap(SimulationDescription scene) {
   EXPECT_GT(intersections_in(without, 2), 0);
 }
 
-TEST_P(SelfContact, SquareDroppedOnItsEdgeNeverCrossesItself) {
+TEST_P(SelfContactSlow, SquareDroppedOnItsEdgeNeverCrossesItself) {
   expect_no_crossing_in_a_heap(dropped_on_edge(5, GetParam().description));
 }
 
@@ -138,9 +157,10 @@ TEST(SelfContactSymplecticEuler, SquareDroppedOnItsEdgeNeverCrossesItself) {
 // At level 5 XPBD has four times its substeps: with 40 a step its springs bear less than the energy that is
 // counted for their stretch, and in 2 of 16 falls 0.025 J more were counted than there had been, where a
 // border whipped round.
-TEST_P(SelfContact, FoldsOfADroppedSquareBringInNoEnergy) {
-  for (int fall = 0; fall < 8; ++fall) {
-    SimulationDescription scene = dropped_on_edge(fall < 4 ? 4 : 5, GetParam().description);
+TEST_P(SelfContactFolds, OfADroppedSquareBringInNoEnergy) {
+  const auto& [stepping, falls] = GetParam();
+  for (int fall = 0; fall < falls; ++fall) {
+    SimulationDescription scene = dropped_on_edge(fall < 4 ? 4 : 5, stepping.description);
     auto* xpbd = std::get_if<XpbdDescription>(&scene.integrator);
     if (xpbd != nullptr && fall >= 4) xpbd->substeps = 160;
     scene.cloths[0].position.y() += 4e-7 * fall;
@@ -224,7 +244,7 @@ TEST_P(SelfContact, ClappingBringsInNoEnergy) {
 // Inelastic: what the floor stops it does not throw up. The lower one is stopped in one step, which the other
 // one must not take for how it goes on. No node comes higher than a tenth of the fall (the layers lie within
 // their thickness, 5 mm, of the floor).
-TEST_P(SelfContact, SheetLiesOnOneThatTheFloorStops) {
+TEST_P(SelfContactSlow, SheetLiesOnOneThatTheFloorStops) {
   Simulation<float> simulation(fall_together(4, GetParam().description));
   double highest = 0;
   for (int step = 0; step < 120; ++step) {
@@ -241,7 +261,7 @@ TEST_P(SelfContact, SheetLiesOnOneThatTheFloorStops) {
 }
 
 // T14: rests where tan(angle) < friction, and else slides down with g (sin - friction cos).
-TEST_P(SelfContactFriction, ClothRubsOnCloth) {
+TEST_P(SelfContactFrictionSlow, ClothRubsOnCloth) {
   const auto after_half_a_second = [](Simulation<float>& simulation) {
     for (int step = 0; step < 30; ++step) simulation.step();
     return simulation.centre(1);

@@ -318,7 +318,7 @@ std::vector<SimulationDescription> owning_scenes() {
 }
 
 // What is left of an effect that the copy has not is what set_effects leaves of it.
-TEST(StateCopy, WithoutAnEffectIsAsIfThatWereSwitchedOff) {
+TEST(StateCopySlow, WithoutAnEffectIsAsIfThatWereSwitchedOff) {
   for (const SimulationDescription& scene : owning_scenes()) {
     Simulation<float> original(scene);
     run(original, 20);

@@ -137,7 +137,7 @@ TEST(Tearing, AFallingPieceIsNoRunawayState) {
   EXPECT_FALSE(simulation.cloths()[0].frozen());
 }
 
-TEST(Tearing, LevelChangesKeepTheHalvesApart) {
+TEST(TearingSlow, LevelChangesKeepTheHalvesApart) {
   for (const IntegratorDescription& integrator : kIntegrators) {
     Simulation<float> simulation(hung_strip(integrator, 0.9 * kTopLoad));
     run(simulation, 40);

@@ -210,7 +210,7 @@ bool torn_in_two(const Outcome& outcome, std::size_t rows) {
   return outcome.torn_faces >= rows && outcome.torn_faces < rows * rows / 2;
 }
 
-TEST(TornLayers, HalvesOfATornSheetDoNotPassThroughEachOther) {
+TEST(TornLayersSlow, HalvesOfATornSheetDoNotPassThroughEachOther) {
   for (const IntegratorDescription& stepping :
        {IntegratorDescription{Bdf2Description{}}, IntegratorDescription{XpbdDescription{}}}) {
     const Outcome outcome = outcome_of(torn_and_drawn_together(4, stepping), 3);
@@ -220,7 +220,7 @@ TEST(TornLayers, HalvesOfATornSheetDoNotPassThroughEachOther) {
   EXPECT_GT(outcome_of(without_contact(torn_and_drawn_together(4, Bdf2Description{})), 3).intersections, 0);
 }
 
-TEST(TornLayers, ATornSheetFallsUponItself) {
+TEST(TornLayersSlow, ATornSheetFallsUponItself) {
   for (const int level : {4, 5}) {
     const Outcome outcome = outcome_of(torn_and_laid_down(level, Bdf2Description{}), 3);
     EXPECT_TRUE(torn_in_two(outcome, std::size_t{1} << level)) << outcome.torn_faces;
