@@ -125,9 +125,9 @@ class Cloth {
   void settle_down(const std::vector<Solid>& solids, double time, double dt);
   /// The next step begins where the cloth has been settled: where nothing has stopped it.
   bool settled() const { return settled_ != Unsettled::no; }
-  /// One step among the solids as they move in it; what the cloth gives them is kept, and theirs with
-  /// push_balls(). Several cloths may do it at the same time, each with its share of a ball that they all
-  /// touch (Colliders::share).
+  /// One step among the solids as they move in it in the world; what the cloth gives them is kept, and theirs
+  /// with push_balls(). Several cloths may do it at the same time, each with its share of a ball that they
+  /// all touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
   /// Its nodes that touch solids; none if nothing has come near any.
   std::span<const Touch> touches() const {
@@ -164,6 +164,8 @@ class Cloth {
   const VectorField<float>* node_air(const Air& air, double time, double dt);
   /// Nothing remembers a step that was taken back.
   void forget_attempt();
+  /// As seen from the cloth's place.
+  std::vector<Solid> seen(const std::vector<Solid>& solids) const;
 
   ClothDescription description_;
   double total_mass_ = 0;
@@ -196,6 +198,8 @@ class Cloth {
   std::unique_ptr<Integrator<Real>> integrator_;        ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
+  // As seen from the cloth's place:
+  std::vector<Solid> met_;     ///< as they were when the step began
   std::vector<Solid> solids_;  ///< as the cloth moves them in the step
   int nodes_in_contact_ = 0;   ///< at the end of the last step that was made
   LayerContacts<Real>* layers_ = nullptr;

@@ -104,13 +104,13 @@ void Colliders::share(ColliderId id, int cloths) {
   solid->inverse_mass = cloths / balls_[index].mass;
 }
 
-void Colliders::push(const std::vector<Solid>& left) {
+void Colliders::push(const std::vector<Solid>& met, const std::vector<Solid>& left) {
   for (std::size_t i = 0; i < balls_.size(); ++i) {
-    balls_[i].pushed += (left[i].position - solids_[i].position) / balls_[i].sharing;
-    balls_[i].sped_up += (left[i].velocity - solids_[i].velocity) / balls_[i].sharing;
+    balls_[i].pushed += (left[i].position - met[i].position) / balls_[i].sharing;
+    balls_[i].sped_up += (left[i].velocity - met[i].velocity) / balls_[i].sharing;
   }
   for (std::size_t i = balls_.size(); i < solids_.size(); ++i) {
-    if (solids_[i].yields()) obstacles_[i - balls_.size()].body->push(solids_[i], left[i]);
+    if (solids_[i].yields()) obstacles_[i - balls_.size()].body->push(met[i], left[i]);
   }
 }
 

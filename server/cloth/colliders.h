@@ -121,8 +121,9 @@ class Colliders {
   /// has their momentum and at most their kinetic energy (Tonge, Benevolenski, Voroshilov, Mass Splitting for
   /// Jitter-Free Parallel Rigid Body Simulation, 2012).
   void share(ColliderId id, int cloths);
-  /// How one cloth leaves solids() at the step's end; the order of the calls decides the last bits.
-  void push(const std::vector<Solid>& left);
+  /// How one cloth met solids() in the step, and how it leaves them, both as seen from one place; the order
+  /// of the calls decides the last bits.
+  void push(const std::vector<Solid>& met, const std::vector<Solid>& left);
   /// Dynamic balls and bodies take up what the cloths gave them. False if that is nothing.
   bool end_step();
   /// The step of dt, s, is over: tells what lies still.

@@ -63,8 +63,8 @@ bool is_finite(const Particles<Real>& particles) {
 template <class Real>
 Vec3 centre(const Particles<Real>& particles) {
   const Vec3 sum = sum_nodes(particles.grid(), Vec3(0, 0, 0),
-                             [&](int r, int c) -> Vec3 { return particles.position_at(r, c); });
-  return sum / particles.grid().nodes();
+                             [&](int r, int c) -> Vec3 { return particles.local_position_at(r, c); });
+  return particles.place + sum / particles.grid().nodes();
 }
 
 template <class Real>

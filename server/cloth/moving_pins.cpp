@@ -24,8 +24,8 @@ bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<
     if (fixed.placed) continue;
     const PlacedShape start = found->placed(0);
     for (Carried& carried : fixed.nodes) {
-      carried.origin = start.rotation.transpose() *
-                       (weft::at<Real>(kernels::components(particles.position), carried.node) - start.centre);
+      const Vec3 local = weft::at<Real>(kernels::components(particles.position), carried.node);
+      carried.origin = start.rotation.transpose() * (particles.place + local - start.centre);
     }
     fixed.placed = true;
   }
@@ -36,14 +36,16 @@ template <class Real>
 void Pins<Real>::carry(Particles<Real>& particles, double time) const {
   for (const Path& path : carried_) {
     const Vec3 offset = along_path(path.points, time, path.loops);
-    for (const Carried& carried : path.nodes)
-      set(kernels::components(particles.position), carried.node, carried.origin + offset);
+    for (const Carried& carried : path.nodes) {
+      set(kernels::components(particles.position), carried.node, carried.origin + offset - particles.place);
+    }
   }
   for (const Fixed& fixed : fixed_) {
     if (!fixed.placed || !fixed.obstacle.moves()) continue;
     const PlacedShape now = at(fixed, time);
     for (const Carried& carried : fixed.nodes) {
-      set(kernels::components(particles.position), carried.node, now.centre + now.rotation * carried.origin);
+      set(kernels::components(particles.position), carried.node,
+          now.centre + now.rotation * carried.origin - particles.place);
     }
   }
 }

@@ -69,8 +69,10 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     if (region.path.empty()) continue;
     Path path{region.path, region.loop, {}};
     const Vec3 offset = along_path(region.path, time, region.loop);
-    for (const std::size_t node : nodes)
-      path.nodes.push_back({node, weft::at<Real>(kernels::components(particles.position), node) - offset});
+    for (const std::size_t node : nodes) {
+      const Vec3 local = weft::at<Real>(kernels::components(particles.position), node);
+      path.nodes.push_back({node, particles.place + local - offset});
+    }
     end_of_motion_ = std::max(
         end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
     carried_.push_back(std::move(path));

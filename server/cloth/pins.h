@@ -48,7 +48,7 @@ class Pins {
  private:
   struct Carried {
     std::size_t node;
-    Vec3 origin;  ///< its place at offset 0, m
+    Vec3 origin;  ///< where it is in the world at offset 0, m
   };
   struct Path {
     std::vector<Waypoint> points;

@@ -53,6 +53,7 @@ void transfer_vectors(const VectorField<Real>& from, VectorField<Real>& to, Tran
 
 template <class Real, class Transfer>
 void transfer_state(const Particles<Real>& from, Particles<Real>& to, Transfer transfer) {
+  to.place = from.place;
   transfer_vectors(from.position, to.position, transfer);
   transfer_vectors(from.velocity, to.velocity, transfer);
   transfer_vectors(from.acceleration, to.acceleration, transfer);

@@ -40,7 +40,7 @@ class RigidBody {
   void fly(Pose& pose, Solid& solid, const Vec3& gravity, double dt);
   /// So many cloths touch it in the step: Colliders::share.
   void share(int cloths, Solid& solid);
-  /// A cloth leaves it as `left` that got it as `solid`.
+  /// A cloth leaves it as `left` that got it as `solid`, both as seen from one place.
   void push(const Solid& solid, const Solid& left);
   /// At the step's end: the pose and the solid with what the cloths gave. False if they gave nothing.
   bool take_up(Pose& pose, Solid& solid);

@@ -85,7 +85,8 @@ class Sleep {
 
   double threshold_;
   int quiet_steps_ = 0;
-  std::vector<Vec3> watched_;  ///< positions when the quiet time began; empty while the cloth plainly moves
+  /// Positions in the world when the quiet time began; empty while the cloth plainly moves.
+  std::vector<Vec3> watched_;
   bool asleep_ = false;
   bool resting_ = false;  ///< it is told to
   bool left_out_ = false;

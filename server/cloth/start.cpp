@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cloth/place.h"
 #include "cloth/random.h"
 
 namespace weft {
@@ -49,13 +50,15 @@ Particles<Real> start(const ClothDescription& description, int level) {
   if (!nodes.empty() && nodes.size() != static_cast<std::size_t>(grid.nodes())) {
     throw std::invalid_argument("a cloth needs as many start positions as it has nodes at its initial level");
   }
-  const auto place = description.sewn ? folded : flat;
+  const auto own_place = description.sewn ? folded : flat;
+  const auto middle = static_cast<std::size_t>(grid.rows / 2 * grid.cols + grid.cols / 2);
+  particles.place = place_near(nodes.empty() ? description.position : nodes[middle]);
   std::size_t next = 0;
   for_each_node(grid, [&](int r, int c, double u, double v) {
     const auto on_the_sheet = [&] {
-      return Vec3(description.position + description.orientation * place(description.size, u, v));
+      return Vec3(description.position + description.orientation * own_place(description.size, u, v));
     };
-    set(particles.position, r, c, nodes.empty() ? on_the_sheet() : nodes[next++]);
+    set(particles.position, r, c, (nodes.empty() ? on_the_sheet() : nodes[next++]) - particles.place);
     set(particles.velocity, r, c, description.velocity);
   });
   return particles;
@@ -69,7 +72,7 @@ void perturb(const ClothDescription& description, std::uint64_t seed, Particles<
   for_each_node(particles.grid(), [&](int r, int c, double, double) {
     const double offset = description.perturbation * random.symmetric();
     if (particles.inverse_mass.at(r, c) > Real(0)) {
-      set(particles.position, r, c, particles.position_at(r, c) + offset * normal);
+      set(particles.position, r, c, particles.local_position_at(r, c) + offset * normal);
     }
   });
 }

@@ -7,8 +7,8 @@
 namespace weft {
 
 /// The cloth as its description puts it, at `level`: flat about `position`, or folded over if it is sewn, or
-/// at `nodes`; all of it moves with `velocity`. Masses are not set. std::invalid_argument if there are
-/// `nodes`, but not one for each of the level's.
+/// at `nodes`; all of it moves with `velocity`. Its place is the one near `position`, or its middle node.
+/// Masses are not set. std::invalid_argument if there are `nodes`, but not one for each of the level's.
 template <class Real>
 Particles<Real> start(const ClothDescription& description, int level);
 

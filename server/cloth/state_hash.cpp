@@ -42,6 +42,8 @@ std::uint64_t state_hash(const Simulation<Real>& simulation) {
   hash.add(simulation.step_count());
   for (const Cloth<Real>& cloth : simulation.cloths()) {
     hash.add(cloth.level());
+    const Vec3& place = cloth.particles().place;
+    if (!place.isZero(0)) hash.add(place);  // one at the origin has none to tell
     hash.add(cloth.particles().position);
     hash.add(cloth.particles().velocity);
     if (cloth.walls() != nullptr) {  // a whole cloth has none to tell

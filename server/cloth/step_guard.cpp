@@ -42,6 +42,7 @@ void StepGuard<Real>::set_integrator(const IntegratorDescription& own) {
 template <class Real>
 void StepGuard<Real>::enter(const Particles<Real>& particles, const Vec2& cell) {
   cell_ = cell;
+  place_ = particles.place;
   position_ = particles.position;
   velocity_ = particles.velocity;
   const Finding finding = look_at(particles);
@@ -125,6 +126,7 @@ auto StepGuard<Real>::look_at(const Particles<Real>& particles) const -> Finding
 
 template <class Real>
 void StepGuard<Real>::keep(const Particles<Real>& particles, double speed) {
+  place_ = particles.place;
   position_ = particles.position;
   velocity_ = particles.velocity;
   sound_ = true;
@@ -133,6 +135,7 @@ void StepGuard<Real>::keep(const Particles<Real>& particles, double speed) {
 
 template <class Real>
 void StepGuard<Real>::restore(Particles<Real>& particles) const {
+  particles.place = place_;
   particles.position = position_;
   particles.velocity = velocity_;
   particles.acceleration.fill(Real(0));

@@ -89,6 +89,7 @@ class StepGuard {
 
   IntegratorDescription own_;
   Vec2 cell_{1, 1};
+  Vec3 place_{0, 0, 0};                    ///< Particles::place of the last good state
   VectorField<Real> position_, velocity_;  ///< the last good state
   bool sound_ = false;
   double speed_ = 0;

@@ -33,6 +33,7 @@ Simulation<float> at_rest(const Simulation<float>& simulation) {
   scene.integrator = method;
   scene.sleep_speed = 0;
   Simulation<float> still(scene);
+  still.cloths()[0].particles().place = simulation.cloths()[0].particles().place;
   still.cloths()[0].particles().position = simulation.cloths()[0].particles().position;
   return still;
 }

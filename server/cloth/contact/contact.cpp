@@ -157,7 +157,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
-        const Vec3 move = way.move(particles.position_at(row, col), particles.grid().index(row, col));
+        const Vec3 move = way.move(particles.local_position_at(row, col), particles.grid().index(row, col));
         NodeContact<Real> node({particles, rounded_off, start != nullptr, not_held_, kept_aside_}, row, col,
                                move);
         if (node.resolve(moving, touches_)) ++in_contact;
@@ -246,7 +246,7 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
-        const Vec3 place = particles.position_at(row, col);
+        const Vec3 place = particles.local_position_at(row, col);
         for (std::size_t i = 0; i < solids.size(); ++i) {
           if (!sought(solids[i])) continue;
           // As seen from the solid where it will be.

@@ -258,7 +258,7 @@ void NodeContact<Real>::set_position(const Vec3& target) {
   particles_.position.x.at(row_, col_) = static_cast<Real>(target.x());
   particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
   particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
-  position_ = particles_.position_at(row_, col_);
+  position_ = particles_.local_position_at(row_, col_);
   if (rounded_off_ == nullptr) return;
   const Vec3 rest = target - position_;
   rounded_off_->x.at(row_, col_) = static_cast<Real>(rest.x());

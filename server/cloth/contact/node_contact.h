@@ -61,7 +61,7 @@ class NodeContact {
         rounded_off_(state.rounded_off),
         row_(row),
         col_(col),
-        position_(state.particles.position_at(row, col)),
+        position_(state.particles.local_position_at(row, col)),
         start_(position_ - move),
         move_(move),
         slip_is_left_(state.slip_is_left),

@@ -44,6 +44,13 @@ struct Solid {
   /// From `fraction` of a step of `dt` seconds on it has this velocity and this spin; unless they are not
   /// finite, as they are in a step that is going to be taken back.
   void go_on(const Vec3& with, const Vec3& spinning, double fraction, double dt);
+  /// As seen from `place`, m.
+  Solid from(const Vec3& place) const {
+    Solid seen = *this;
+    seen.start -= place;
+    seen.position -= place;
+    return seen;
+  }
   /// Whatever moved it has come to its end: it stays where it is, and no force moves it.
   void stand() {
     start = position;

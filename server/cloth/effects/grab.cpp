@@ -61,12 +61,12 @@ bool Grabs<Real>::release(GrabId id) {
 
 template <class Real>
 Vec3 Grabs<Real>::place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& uv) {
-  Vec3 place(0, 0, 0);
+  Vec3 local(0, 0, 0);
   for_each_in_patch(particles.grid(), cloth.size, uv, patch_radius(cloth, kPatch),
                     [&](std::size_t i, double weight) {
-                      place += weight * at(kernels::components(particles.position), i);
+                      local += weight * at(kernels::components(particles.position), i);
                     });
-  return place;
+  return particles.place + local;
 }
 
 template <class Real>

@@ -10,7 +10,7 @@ namespace weft {
 struct Grab {
   GrabId id = 0;
   Vec2 at{0.5, 0.5};       ///< (u, v) of the point, in [0, 1]
-  Vec3 hand{0, 0, 0};      ///< m
+  Vec3 hand{0, 0, 0};      ///< in the world, m
   double max_force = 100;  ///< N, > 0; what the hand is pulled beyond it slips behind
 };
 
@@ -33,7 +33,7 @@ class Grabs final : public Effect<Real> {
   /// Where the hand goes; false if there is no such grab.
   bool move(GrabId id, const Vec3& hand);
   bool release(GrabId id);
-  /// Where what would be held at (u, v) is now, m.
+  /// Where what would be held at (u, v) is now, in the world, m.
   static Vec3 place(const Particles<Real>& particles, const ClothDescription& cloth, const Vec2& uv);
 
   void add_forces(const Particles<Real>& particles, const EffectContext& context,

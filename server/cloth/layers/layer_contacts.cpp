@@ -78,6 +78,7 @@ void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep&
   near_rest_ = near_rest;
   rounds_ = 0;
   substep_ = substep;
+  place_ = particles.place;
   if (substep.from == 0) given_.assign(given_.size(), Vec3(0, 0, 0));
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
@@ -89,7 +90,7 @@ void LayerContacts<Real>::begin(const Particles<Real>& particles, const Substep&
   own_.tangled.assign(nodes_->tangled.begin() + first_, nodes_->tangled.begin() + end_);
   for (std::size_t i = 0; i < count; ++i) {
     own_.velocity[i] = at(velocity, i);
-    own_.start[i] = at(position, i);
+    own_.start[i] = place_ + at(position, i);
     // A pin is at the substep's end already.
     if (own_.inverse_mass[i] == 0) {
       own_.end[i] = own_.start[i];
@@ -242,7 +243,7 @@ bool LayerContacts<Real>::hold_meeting(kernels::Components<const Real> position,
                                        kernels::Components<const Real> move) {
   if (constraints_.empty() || rounds_ == kMostRounds) return false;
   ++rounds_;
-  for (std::size_t i = 0; i < own_.end.size(); ++i) own_.end[i] = at(position, i);
+  for (std::size_t i = 0; i < own_.end.size(); ++i) own_.end[i] = place_ + at(position, i);
   met_.assign(own_.end.size(), 0);
   // By the nodes they join, the first where several do; made when something meets. In a crumpled lump
   // thousands of pairs meet among tens of thousands.

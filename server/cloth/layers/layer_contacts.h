@@ -207,6 +207,7 @@ class LayerContacts {
   std::vector<Vec3> given_;
   std::vector<Other> others_;  ///< of the step's pairs, by node
   Substep substep_;
+  Vec3 place_{0, 0, 0};  ///< of this cloth in the substep (Particles::place)
   bool near_rest_ = false;
   LayerNodes own_;        ///< this cloth's nodes alone, on their ways in the substep
   FeatureSearch search_;  ///< among them

@@ -55,7 +55,7 @@ void LayerContacts<Real>::resolve(Particles<Real>& particles, const Substep& sub
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = pair.features.node[i];
       if (own(n)) {
-        x[i] = at<Real>(position, n - first_);
+        x[i] = particles.place + at<Real>(position, n - first_);
         v[i] = at<Real>(velocity, n - first_);
         inverse_mass[i] = own_.inverse_mass[n - first_];
       } else {

@@ -8,7 +8,8 @@
 namespace weft {
 
 /// The nodes of all cloths of a scene in one step, one cloth after the other: node i of cloth k's grid arrays
-/// is first[k] + i here. In double precision, so that what is computed from them is not rounded again.
+/// is first[k] + i here. In the world, wherever the cloths' own places are, and in double precision, so that
+/// what is computed from them is not rounded again.
 struct LayerNodes {
   std::vector<std::uint32_t> first;  ///< of each cloth, and behind them the number of all
   std::vector<Vec3> start;           ///< where the step began, m

@@ -97,11 +97,12 @@ void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths) {
 template <class Real>
 void Layers<Real>::read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const {
   for (std::size_t k = 0; k < cloths.size(); ++k) {
+    const Vec3& place = cloths[k].particles().place;
     const auto x = kernels::components(cloths[k].particles().position);
     const Grid& grid = grids_[k];
     for (int r = 0; r < grid.rows; ++r) {
       for (std::size_t i = grid.index(r, 0), end = grid.index(r, grid.cols); i < end; ++i) {
-        positions[nodes_.first[k] + i] = at(x, i);
+        positions[nodes_.first[k] + i] = place + at(x, i);
       }
     }
   }
@@ -234,7 +235,8 @@ bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
     if (!changed) continue;
     for (const Touch& touch : cloths[k].keep_outside(before, dt)) {
       const std::size_t n = nodes_.first[k] + touch.node;
-      nodes_.end[n] = at(kernels::components(std::as_const(cloths[k].particles().position)), touch.node);
+      const Particles<Real>& outside = cloths[k].particles();
+      nodes_.end[n] = outside.place + at(kernels::components(outside.position), touch.node);
       nodes_.inverse_mass[n] *= kHeldUp;
       met = true;
     }

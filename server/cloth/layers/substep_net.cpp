@@ -137,7 +137,7 @@ void SubstepNet::apply(Particles<Real>& particles, const Substep& substep) {
   const auto position = kernels::components(particles.position),
              velocity = kernels::components(particles.velocity);
   const std::size_t count = own_.start.size();
-  for (std::size_t i = 0; i < count; ++i) own_.end[i] = at<Real>(position, i);
+  for (std::size_t i = 0; i < count; ++i) own_.end[i] = particles.place + at<Real>(position, i);
   if (searches_ < kSearches && !covered(substep.to)) search(substep);
   measure_ways();
   collect();
@@ -154,7 +154,7 @@ void SubstepNet::apply(Particles<Real>& particles, const Substep& substep) {
       if (own_.end[i] == end[i]) continue;
       add(position, i, Vec3(own_.end[i] - end[i]));
       add(velocity, i, Vec3(own_.velocity[i] - before[i]));
-      own_.end[i] = at<Real>(position, i);
+      own_.end[i] = particles.place + at<Real>(position, i);
     }
     measure_ways();
   }

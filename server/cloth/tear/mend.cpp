@@ -74,12 +74,12 @@ Found look_around(const TornLinks& torn, const Particles<Real>& fine, const Fiel
   for (const Place& way : kWays) {
     const Place q{p.row + way.row, p.col + way.col}, before{q.row + way.row, q.col + way.col};
     if (!linked(torn, p, way) || sound.at(q.row, q.col) == 0) continue;
-    const Vec3 at = fine.position_at(q.row, q.col);
+    const Vec3 at = fine.local_position_at(q.row, q.col);
     if (straight) {
       if (!linked(torn, q, way) || sound.at(before.row, before.col) == 0) continue;
-      found.position += 2 * at - fine.position_at(before.row, before.col);
+      found.position += 2 * at - fine.local_position_at(before.row, before.col);
     } else {
-      const Vec3 apart = fine.position_at(p.row, p.col) - at;
+      const Vec3 apart = fine.local_position_at(p.row, p.col) - at;
       const double longest = way.row == 0 ? spacing.x() : spacing.y(), length = apart.norm();
       found.position += at + (length > longest ? longest / length : 1.0) * apart;
     }

@@ -33,9 +33,9 @@ Vec3 Air::velocity(double time) const {
   return (gusts_ ? wind_.speed * gusts_->factor(time) : wind_.speed) * wind_.direction;
 }
 
-void Air::add_eddies(double time, kernels::Components<const float> points, std::size_t count,
-                     kernels::Components<float> velocity) const {
-  if (eddies_) eddies_->add(progress(time), turbulent_speed(), points, count, velocity);
+void Air::add_eddies(double time, const Vec3& place, kernels::Components<const float> points,
+                     std::size_t count, kernels::Components<float> velocity) const {
+  if (eddies_) eddies_->add(progress(time), turbulent_speed(), place, points, count, velocity);
 }
 
 }  // namespace weft

@@ -29,8 +29,8 @@ class Air {
 
   /// Mean and gusts, m/s, outside of zones.
   Vec3 velocity(double time) const;
-  /// Adds the eddies' velocity at each of `count` points; nothing without turbulence.
-  void add_eddies(double time, kernels::Components<const float> points, std::size_t count,
+  /// Adds the eddies' velocity at each of `count` points as seen from `place`, m; nothing without turbulence.
+  void add_eddies(double time, const Vec3& place, kernels::Components<const float> points, std::size_t count,
                   kernels::Components<float> velocity) const;
 
  private:

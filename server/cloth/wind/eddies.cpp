@@ -34,12 +34,14 @@ Eddies::Eddies(double length_scale, std::uint64_t seed) {
   }
 }
 
-void Eddies::add(const Progress& progress, double rms, kernels::Components<const float> points,
-                 std::size_t count, kernels::Components<float> velocity) const {
+void Eddies::add(const Progress& progress, double rms, const Vec3& place,
+                 kernels::Components<const float> points, std::size_t count,
+                 kernels::Components<float> velocity) const {
   std::array<kernels::AirWave, std::tuple_size_v<decltype(modes_)>> waves;
   for (std::size_t n = 0; n < waves.size(); ++n) {
     const Mode& mode = modes_[n];
-    const double turns = mode.phase + mode.turning * progress.turned - mode.wave.dot(progress.carried);
+    const double turns =
+        mode.phase + mode.turning * progress.turned - mode.wave.dot(progress.carried - place);
     const Eigen::Vector3f wave = mode.wave.cast<float>(), amplitude = (rms * mode.amplitude).cast<float>();
     waves[n] = {wave.x(),      wave.y(),      wave.z(),     static_cast<float>(turns - std::nearbyint(turns)),
                 amplitude.x(), amplitude.y(), amplitude.z()};

@@ -24,9 +24,9 @@ class Eddies {
     Vec3 carried{0, 0, 0};  ///< by the wind, m
     double turned = 0;      ///< their own way, u times the time, m
   };
-  /// Adds the eddies' velocity at each of `count` points; `rms` is u, m/s.
-  void add(const Progress& progress, double rms, kernels::Components<const float> points, std::size_t count,
-           kernels::Components<float> velocity) const;
+  /// Adds the eddies' velocity at each of `count` points as seen from `place`; `rms` is u, m/s.
+  void add(const Progress& progress, double rms, const Vec3& place, kernels::Components<const float> points,
+           std::size_t count, kernels::Components<float> velocity) const;
 
  private:
   struct Mode {

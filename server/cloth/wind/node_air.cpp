@@ -8,7 +8,8 @@
 namespace weft {
 namespace {
 
-kernels::AirZone placed_zone(const WindZone& zone) {
+/// As seen from `place`.
+kernels::AirZone placed_zone(const WindZone& zone, const Vec3& place) {
   kernels::AirZone placed{};
   Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();
   if (const auto* box = std::get_if<BoxZone>(&zone.shape)) {
@@ -19,7 +20,7 @@ kernels::AirZone placed_zone(const WindZone& zone) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < 3; ++i) placed.axes[axis][i] = axes(i, axis);
-    placed.centre[axis] = static_cast<float>(zone.position[axis]);
+    placed.centre[axis] = static_cast<float>(zone.position[axis] - place[axis]);
     placed.velocity[axis] = static_cast<float>(zone.velocity[axis]);
   }
   placed.one_over_edge = static_cast<float>(1 / zone.edge);
@@ -51,6 +52,7 @@ const VectorField<float>& NodeAir::sample(const Air& air, const Particles<Real>&
                                           const Vec2& spacing, double time, double ahead) {
   const Grid& grid = particles.grid();
   if (velocity_.grid() != grid) points_ = velocity_ = VectorField<float>(grid);
+  place_ = particles.place;
   look_ahead(particles.position.x, particles.velocity.x, ahead, points_.x);
   look_ahead(particles.position.y, particles.velocity.y, ahead, points_.y);
   look_ahead(particles.position.z, particles.velocity.z, ahead, points_.z);
@@ -81,7 +83,7 @@ Eigen::AlignedBox3f NodeAir::box_around_points() {
 void NodeAir::add_zones(const Air& air) {
   const Eigen::AlignedBox3f points = box_around_points();
   for (const WindZone& zone : air.wind().zones) {
-    const kernels::AirZone placed = placed_zone(zone);
+    const kernels::AirZone placed = placed_zone(zone, place_);
     if (!box_around(placed).intersects(points)) continue;
     kernels::blend_zone(placed, kernels::components(std::as_const(points_)), points_.grid().size(),
                         kernels::components(velocity_));

@@ -25,6 +25,7 @@ class NodeAir {
   /// Of turbulent air alone.
   void add_eddies(const Air& air, const Vec2& spacing, double time);
 
+  Vec3 place_{0, 0, 0};                   ///< that the points are seen from, m
   VectorField<float> points_, velocity_;  ///< at all nodes
   VectorField<float> few_points_,
       few_velocity_;  ///< where eddies are evaluated, if not at all nodes; one row. Empty in calm air

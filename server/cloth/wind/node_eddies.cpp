@@ -28,7 +28,7 @@ void NodeAir::add_eddies(const Air& air, const Vec2& spacing, double time) {
   const int rows = nodes_apart(grid.rows - 1, spacing.y(), most);
   const int cols = nodes_apart(grid.cols - 1, spacing.x(), most);
   if (rows == 1 && cols == 1) {
-    air.add_eddies(time, kernels::components(std::as_const(points_)), grid.size(),
+    air.add_eddies(time, place_, kernels::components(std::as_const(points_)), grid.size(),
                    kernels::components(velocity_));
     return;
   }
@@ -39,7 +39,7 @@ void NodeAir::add_eddies(const Air& air, const Vec2& spacing, double time) {
   pick(points_.y, rows, cols, few_points_.y.row(0));
   pick(points_.z, rows, cols, few_points_.z.row(0));
   few_velocity_.fill(0);
-  air.add_eddies(time, kernels::components(std::as_const(few_points_)), few.size(),
+  air.add_eddies(time, place_, kernels::components(std::as_const(few_points_)), few.size(),
                  kernels::components(few_velocity_));
   kernels::add_between(few_rows, few_cols, kernels::components(std::as_const(few_velocity_)), rows, cols,
                        grid, kernels::components(velocity_));

@@ -100,9 +100,9 @@ TEST(Colliders, ADynamicBallTakesUpItsImpulse) {
   colliders.begin_step(0.0, kDt, {0, 0, 0});
   std::vector<Solid> left = colliders.solids();
   left[0].go_on({1, 0, 0.25 * left[0].inverse_mass}, {0, 0, 0}, 0.5, kDt);
-  colliders.push(left);
-  colliders.push(left);                // another cloth
-  colliders.push(colliders.solids());  // one that does not touch it
+  colliders.push(colliders.solids(), left);
+  colliders.push(colliders.solids(), left);                // another cloth
+  colliders.push(colliders.solids(), colliders.solids());  // one that does not touch it
   colliders.end_step();
   EXPECT_EQ(colliders.balls()[0].position, Vec3(kDt, 0, 0.25 * kDt / 2));
   EXPECT_EQ(colliders.solids()[0].position, colliders.balls()[0].position);
@@ -126,7 +126,7 @@ TEST(Colliders, ClothsThatTouchABallShareItsMass) {
   EXPECT_EQ(colliders.solids()[0].inverse_mass, 2 / 2.0);
   std::vector<Solid> left = colliders.solids();
   left[0].go_on({0, 0, 0}, {0, 0, 0}, 0, kDt);
-  for (int cloth = 0; cloth < 2; ++cloth) colliders.push(left);
+  for (int cloth = 0; cloth < 2; ++cloth) colliders.push(colliders.solids(), left);
   colliders.end_step();
   EXPECT_EQ(colliders.balls()[0].velocity, Vec3(0, 0, 0));
   EXPECT_EQ(colliders.balls()[0].position, Vec3(0, 0, 0));

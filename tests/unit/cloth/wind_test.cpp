@@ -107,7 +107,7 @@ Vec3 velocity_at(const Eddies& eddies, const Vec3& place, const Eddies::Progress
                  double rms = 1) {
   const float x = float(place.x()), y = float(place.y()), z = float(place.z());
   float vx = 0, vy = 0, vz = 0;
-  eddies.add(progress, rms, {&x, &y, &z}, 1, {&vx, &vy, &vz});
+  eddies.add(progress, rms, Vec3::Zero(), {&x, &y, &z}, 1, {&vx, &vy, &vz});
   return {vx, vy, vz};
 }
 
@@ -236,7 +236,7 @@ TEST(Air, GoesOnWhereItWasWhenItChanges) {
   const auto eddy = [&air](double time) {
     const float x = 0.3F, y = 0.1F, z = 0.2F;
     float vx = 0, vy = 0, vz = 0;
-    air.add_eddies(time, {&x, &y, &z}, 1, {&vx, &vy, &vz});
+    air.add_eddies(time, Vec3::Zero(), {&x, &y, &z}, 1, {&vx, &vy, &vz});
     return Vec3(vx, vy, vz);
   };
   const Vec3 before = eddy(1000), gust = air.velocity(1000);
@@ -340,7 +340,7 @@ TEST(NodeAir, IsEverywhereCloseToTheEddies) {
     const Vec3 place = sheet.position_at(r, c);
     const float x = float(place.x()), y = float(place.y()), z = float(place.z());
     float vx = 0, vy = 0, vz = -5;
-    direct.add_eddies(1.0, {&x, &y, &z}, 1, {&vx, &vy, &vz});
+    direct.add_eddies(1.0, Vec3::Zero(), {&x, &y, &z}, 1, {&vx, &vy, &vz});
     const double off = (get(air, r, c) - Vec3(vx, vy, vz)).norm();
     if (r % 4 == 0 && c % 4 == 0) {
       EXPECT_LT(off, 1e-5) << r << " " << c;
