@@ -90,10 +90,17 @@ std::int32_t unzigzag(std::uint32_t z) {
   return static_cast<std::int32_t>(z >> 1) ^ -static_cast<std::int32_t>(z & 1);
 }
 
+/// The largest float that is at most `value`. Of a multiple of a power of two it is a multiple, too: its own
+/// last digit is worth more, or it is the value itself.
+float float_below(double value) {
+  const float nearest = static_cast<float>(value);
+  return double(nearest) > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+}
+
 /// Zig-zagged residuals of one axis. With d = q - (q above), q - P is d - (d to the left).
 void residuals(const GridView& grid, std::size_t axis, const Quantisation& quantisation,
                std::vector<std::uint32_t>& out) {
-  const double origin = double(quantisation.origin[axis]);
+  const double origin = double(quantisation.origin[axis]) - grid.place[axis];
   const double per_quantum = 1.0 / double(quantisation.quantum);  // exact: a power of two
   const double top = double((1 << quantisation.bits) - 1);
   const int cols = grid.cols;
@@ -116,11 +123,13 @@ void residuals(const GridView& grid, std::size_t axis, const Quantisation& quant
 }  // namespace
 
 Quantisation choose_quantisation(const GridView& grid, int bits) {
-  std::array<Interval, 3> box;
+  std::array<double, 3> low{}, high{};
   double extent = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    box[axis] = interval_of(grid, axis);
-    extent = std::max(extent, double(box[axis].high) - double(box[axis].low));
+    const Interval box = interval_of(grid, axis);
+    low[axis] = grid.place[axis] + double(box.low);
+    high[axis] = grid.place[axis] + double(box.high);
+    extent = std::max(extent, high[axis] - low[axis]);
   }
   const double top = double((1 << bits) - 1);
   int exponent = kMinQuantumExponent;
@@ -131,10 +140,8 @@ Quantisation choose_quantisation(const GridView& grid, int bits) {
     Quantisation chosen{bits, {}, static_cast<float>(quantum)};
     bool covers = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Exact in f32: either the multiple has 24 bits at most, or the float `low` is a multiple itself.
-      const double origin = std::floor(double(box[axis].low) / quantum) * quantum;
-      chosen.origin[axis] = static_cast<float>(origin);
-      covers = covers && std::floor((double(box[axis].high) - origin) / quantum + 0.5) <= top;
+      chosen.origin[axis] = float_below(std::floor(low[axis] / quantum) * quantum);
+      covers = covers && std::floor((high[axis] - double(chosen.origin[axis])) / quantum + 0.5) <= top;
     }
     if (covers) return chosen;
   }

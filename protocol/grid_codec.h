@@ -13,17 +13,19 @@ namespace weft::protocol {
 inline constexpr int kMinSide = 2, kMaxSide = 1025;  ///< nodes along a side
 
 /// Positions to encode, seen in place: component c of node (r, k) is at data[c][r * row_step + k * col_step].
-/// A viewer's coarser level is the same storage with both steps doubled (levels are nested).
+/// A viewer's coarser level is the same storage with both steps doubled (levels are nested). Positions are
+/// those plus `place`, in double.
 struct GridView {
   std::array<const float*, 3> data{};  ///< x, y, z; m, finite, below 1e30
   int rows = 0, cols = 0;              ///< kMinSide..kMaxSide each
   std::ptrdiff_t row_step = 0, col_step = 1;
+  std::array<double, 3> place{};  ///< m, below 1e30
 };
 
 /// p = origin + q * quantum.
 struct Quantisation {
   int bits = 16;                  ///< 8..16
-  std::array<float, 3> origin{};  ///< m, a multiple of quantum
+  std::array<float, 3> origin{};  ///< m, an exact multiple of quantum, though far away a float has no others
   float quantum = 1.0F;           ///< m, a power of two
   double decode(int axis, std::uint32_t q) const {
     return double(origin[static_cast<std::size_t>(axis)]) + double(q) * double(quantum);

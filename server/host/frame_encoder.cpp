@@ -13,7 +13,8 @@ std::size_t largest_record(const Grid& grid) {
 }
 
 /// The grid as level `level` sees it: every 2^(simulated - level)th node.
-protocol::GridView coarsened(const VectorField<float>& position, int simulated_level, int level) {
+protocol::GridView coarsened(const VectorField<float>& position, const Vec3& place, int simulated_level,
+                             int level) {
   const Grid& grid = position.grid();
   const int step = 1 << (simulated_level - level);
   protocol::GridView view;
@@ -22,6 +23,7 @@ protocol::GridView coarsened(const VectorField<float>& position, int simulated_l
   view.cols = (grid.cols - 1) / step + 1;
   view.row_step = static_cast<std::ptrdiff_t>(grid.stride) * step;
   view.col_step = step;
+  view.place = {place.x(), place.y(), place.z()};
   return view;
 }
 
@@ -54,6 +56,7 @@ void FrameEncoder::capture(const Simulation<float>& simulation, const protocol::
   cloths_.resize(simulation.cloths().size());
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     cloths_[i].level = simulation.cloths()[i].level();
+    cloths_[i].place = simulation.cloths()[i].particles().place;
     cloths_[i].position = simulation.cloths()[i].particles().position;
     cloths_[i].walls.reset();
     if (const Walls* walls = simulation.cloths()[i].walls()) cloths_[i].walls = *walls;
@@ -87,7 +90,7 @@ const Record& FrameEncoder::cloth_record(std::size_t cloth, int level) {
   Record& record = shown.records[level];
   if (record) return record;
   const auto index = static_cast<std::uint32_t>(cloth);
-  const protocol::GridView grid = coarsened(shown.position, shown.level, level);
+  const protocol::GridView grid = coarsened(shown.position, shown.place, shown.level, level);
   auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid);
   std::size_t last = 0;  // where the last of the two begins
   const auto torn = shown.walls ? shown.walls->at(level).torn_faces() : std::vector<std::uint32_t>{};

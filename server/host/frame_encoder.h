@@ -36,7 +36,8 @@ class FrameEncoder {
  private:
   struct ShownCloth {
     int level = 0;
-    VectorField<float> position;
+    Vec3 place{0, 0, 0};            ///< Particles::place
+    VectorField<float> position;    ///< from there
     std::optional<Walls> walls;     ///< if it is torn
     std::map<int, Record> records;  ///< by level
   };

@@ -32,6 +32,7 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
       std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
   unseen_steps_ = std::max(1, static_cast<int>(std::lround(kUnseenTime / scene_.simulation.time_step)));
   find_bounds();
+  find_range();
   encoder_.capture(simulation_, {});
 }
 
@@ -217,11 +218,19 @@ bool LiveScene::remove_ball(BallId id) {
   return found;
 }
 
+void LiveScene::find_range() {
+  range_.extend(Vec3::Zero());
+  for (const BoundingSphere& cloth : bounds_) range_.extend(cloth.centre);
+  for (const Ball& ball : simulation_.colliders().balls()) range_.extend(ball.position);
+  for (const Obstacle& obstacle : simulation_.colliders().obstacles()) range_.extend(obstacle.pose.position);
+  range_ = {range_.min() - Vec3::Constant(kBallRange), range_.max() + Vec3::Constant(kBallRange)};
+}
+
 void LiveScene::remove_lost_balls() {
   std::vector<BallId> lost;
   for (const Ball& ball : simulation_.colliders().balls()) {
     const bool dynamic = ball.motion == BallDescription::Motion::dynamic;
-    if (dynamic && ball.position.cwiseAbs().maxCoeff() > kBallRange) lost.push_back(ball.id);
+    if (dynamic && !range_.contains(ball.position)) lost.push_back(ball.id);
   }
   for (const BallId id : lost) {
     remove_ball(id);
@@ -232,7 +241,7 @@ void LiveScene::remove_lost_balls() {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Pose& pose = obstacles[i].pose;
     const bool flies = obstacles[i].flies();
-    if (flies && pose.position.cwiseAbs().maxCoeff() > kBallRange) simulation_.move_obstacle(i, pose);
+    if (flies && !range_.contains(pose.position)) simulation_.move_obstacle(i, pose);
   }
 }
 

@@ -35,8 +35,8 @@ struct SceneRequest {
 
 class LiveScene {
  public:
-  /// A dynamic ball farther from the origin than this along an axis has left and is removed, a dynamic
-  /// obstacle stays where it is, m.
+  /// A dynamic ball farther than this along an axis from the origin and all that the scene begins with has
+  /// left and is removed, a dynamic obstacle stays where it is, m.
   static constexpr double kBallRange = 1000.0;
   /// Of a cloth, the scene's own and those that viewers set.
   static constexpr std::size_t kMaxPins = 256;
@@ -142,6 +142,7 @@ class LiveScene {
   void tell_guard_events();
   /// False if there is none. One of the scene's own is studied with the scene's friction from then on.
   bool remove_ball(BallId id);
+  void find_range();
   void remove_lost_balls();
   void state_changed();
   void balls_changed(std::string_view kind, BallId id);
@@ -166,8 +167,9 @@ class LiveScene {
   std::vector<Material> materials_;           ///< the cloths', as they are now
   Recompose recompose_ = Recompose::nothing;  ///< not done yet: once a step, however many commands
   std::uint64_t study_number_ = 0;
-  int frame_stride_ = 1;  ///< steps from one frame to the next
-  int unseen_steps_ = 1;  ///< kUnseenTime
+  Eigen::AlignedBox3d range_;  ///< of dynamic balls and obstacles (kBallRange)
+  int frame_stride_ = 1;       ///< steps from one frame to the next
+  int unseen_steps_ = 1;       ///< kUnseenTime
   std::uint32_t epoch_ = 1;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
   int waiting_steps_ = 0;           ///< asked for by `step`, not made yet

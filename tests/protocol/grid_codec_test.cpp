@@ -182,6 +182,39 @@ TEST(GridCodec, NodesAtRestStayWhereTheyAreDecoded) {
   EXPECT_GT(compared, 5) << "the box hardly ever moved: nothing was tested";
 }
 
+// A float has 1 mm at 10 km, the lattice 31 um: its origin is a float all the same, a multiple of the
+// quantum.
+TEST(GridCodec, IsAsFineFarFromTheOrigin) {
+  std::mt19937 random(8);
+  for (const double far : {200.0, 10000.0, -10000.0, 1e6}) {
+    const Sheet sheet = random_sheet(9, 9, random, 0.0, 1.9);
+    GridView view = sheet.view();
+    const float quantum = choose_quantisation(view, 16).quantum;
+    view.place = {far, -2 * far, 4};
+    const Quantisation lattice = choose_quantisation(view, 16);
+    EXPECT_LE(lattice.quantum, 2 * quantum);
+    std::vector<std::uint8_t> payload;
+    encode_grid(view, lattice, payload);
+    Quantisation from_origin = lattice;
+    from_origin.origin = {};
+    std::vector<float> offsets;
+    std::string error;
+    ASSERT_TRUE(decode_grid(payload, 9, 9, from_origin, offsets, error)) << error;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      const double origin = double(lattice.origin[a]);
+      EXPECT_EQ(std::remainder(origin, double(lattice.quantum)), 0);
+      for (int r = 0; r < 9; ++r) {
+        for (int c = 0; c < 9; ++c) {
+          const double offset = double(offsets[static_cast<std::size_t>(3 * (9 * r + c) + axis)]);
+          EXPECT_NEAR(origin + offset, view.place[a] + double(view.data[a][r * view.row_step + c]),
+                      double(lattice.quantum) / 2);
+        }
+      }
+    }
+  }
+}
+
 // Levels are nested: every second node of the storage is the coarser level.
 TEST(GridCodec, StepsOfTwoEncodeTheCoarserLevel) {
   std::mt19937 random(5);

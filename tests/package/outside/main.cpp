@@ -15,10 +15,15 @@ int main() {
 
   // Free fall for 1 s: between -g t^2/2 and symplectic Euler's -g t (t + h)/2, h = 1/60 s without substeps.
   const double y = simulation.centre(0).y();
+  const weft::Vec3& place = simulation.cloths()[0].particles().place;
   const auto& position = simulation.cloths()[0].particles().position;
   const auto& grid = position.grid();
-  const weft::protocol::GridView view{
-      {position.x.row(0), position.y.row(0), position.z.row(0)}, grid.rows, grid.cols, grid.stride, 1};
+  const weft::protocol::GridView view{{position.x.row(0), position.y.row(0), position.z.row(0)},
+                                      grid.rows,
+                                      grid.cols,
+                                      grid.stride,
+                                      1,
+                                      {place.x(), place.y(), place.z()}};
   auto record = weft::protocol::encode_cloth_record({}, 0, 4, 4, 16, view);
   weft::protocol::mark_last(record, 0);
   weft::protocol::Frame frame;
