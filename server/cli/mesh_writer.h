@@ -1,5 +1,6 @@
 #pragma once
 /// Mesh sequences to files, by extension: .obj (numbered), .pc2, .csv, .glb.
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -13,16 +14,21 @@ struct MeshFrame {
   int frame = 0;
   double time = 0;  ///< s
   int rows = 0, cols = 0;
-  std::vector<float> positions;   ///< x, y, z interleaved, row by row, m
+  std::vector<float> positions;   ///< x, y, z interleaved, row by row, from `place`, m
   std::vector<float> velocities;  ///< the same, m/s; empty where unknown
   /// Faces that are torn, ascending; face r * (cols - 1) + c lies right of and below node (r, c).
   std::vector<std::uint32_t> torn_faces = {};
+  std::array<double, 3> place{};  ///< of the positions' origin in the world, m
+
+  /// In the world, m: component i of `positions`, whose axis is i % 3.
+  double coordinate(std::size_t i) const { return place[i % 3] + double(positions[i]); }
 };
 
 /// Writes the frames of one cloth to one file (or numbered sequence). The level may change between frames:
 /// .obj and .csv keep each frame's own grid; .pc2 and .glb have one topology, so there every frame is brought
-/// to the first one's grid (on_grid). Torn faces are left out of .obj; .pc2 and .csv know no faces, a .glb
-/// keeps all of them.
+/// to the first one's grid (on_grid). Coordinates are the world's, in .obj and .csv as exact as simulated, in
+/// .pc2 as a float has them there, in .glb from its node's translation. Torn faces are left out of .obj; .pc2
+/// and .csv know no faces, a .glb keeps all of them.
 class MeshWriter {
  public:
   virtual ~MeshWriter() = default;

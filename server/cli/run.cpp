@@ -51,6 +51,7 @@ MeshFrame mesh_of(const Simulation<float>& simulation, std::size_t cloth, int fr
       append(mesh.velocities, particles.velocity, r, c);
     }
   }
+  mesh.place = {particles.place.x(), particles.place.y(), particles.place.z()};
   const Cloth<float>& torn = simulation.cloths()[cloth];
   if (torn.walls() != nullptr) mesh.torn_faces = torn.walls()->at(torn.level()).torn_faces();
   return mesh;

@@ -63,6 +63,23 @@ TEST_F(GlbWriterTest, ReadsBack) {
   EXPECT_EQ(data<float>(model, sampler.output), (std::vector<float>{0, 0, 1, 0, 0, 1}));
 }
 
+// The mesh keeps its digits; a cloth that gets a new place meanwhile stays where it is.
+TEST_F(GlbWriterTest, StandsAtThePlaceOfItsFirstFrame) {
+  const auto writer = MeshWriter::open(path("far.glb"));
+  MeshFrame first = one_cell(0, 0.0, 0.25f), second = one_cell(1, 0.5, -0.75f);
+  first.place = {10000, -4, 0};
+  second.place = {10000, -4, 4};
+  writer->write(first);
+  writer->write(second);
+  writer->finish();
+  const tinygltf::Model model = read("far.glb");
+  EXPECT_EQ(model.nodes.at(0).translation, (std::vector<double>{10000, -4, 0}));
+  const auto& primitive = model.meshes.at(0).primitives.at(0);
+  EXPECT_EQ(data<float>(model, primitive.attributes.at("POSITION")), first.positions);
+  EXPECT_EQ(data<float>(model, primitive.targets.at(0).at("POSITION")),
+            (std::vector<float>{0, 0, 3, 0, 0, 3, 0, 0, 3, 0, 0, 3}));
+}
+
 TEST_F(GlbWriterTest, OneFrameIsAStillMesh) {
   const auto writer = MeshWriter::open(path("still.glb"));
   writer->write(one_cell(0, 0, 0));

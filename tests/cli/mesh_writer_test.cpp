@@ -86,6 +86,18 @@ TEST_F(MeshWriterTest, Pc2KeepsTheFirstFramesGrid) {
             (std::vector<float>{0.5f, -0.5f, 2}));  // Eq. 8: a cell's middle
 }
 
+// A float has 1 mm there: a fiftieth of a millimetre is not lost, and comes as short as before where it is 0.
+TEST_F(MeshWriterTest, CoordinatesAreTheWorldsAsExactAsSimulated) {
+  MeshFrame far = one_cell(0, 0, 2e-5f);
+  far.place = {10000, -4, 10000};
+  write("far.obj", {far});
+  write("far.csv", {far});
+  EXPECT_TRUE(bytes("far_0000.obj").starts_with("v 10000 -4 10000.00002"));
+  EXPECT_NE(bytes("far.csv").find("\n0,0,1,0,10000,-5,10000.00002"), std::string::npos);
+  const MeshFrame coarse = on_grid(on_grid(far, 3, 3), 2, 2);
+  EXPECT_EQ(coarse.place, far.place);
+}
+
 TEST(OnGrid, FinerByEq8) {
   const MeshFrame fine = on_grid(one_cell(0, 0, 1), 3, 3);
   EXPECT_EQ(fine.rows, 3);

@@ -24,7 +24,10 @@ class CsvWriter final : public MeshWriter {
         text += ',';
         append_number(text, c);
         const auto node = static_cast<std::size_t>(r * frame.cols + c) * 3;
-        append_vector(text, &frame.positions[node]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          text += ',';
+          append_coordinate(text, frame.coordinate(node + axis));
+        }
         append_vector(text, frame.velocities.empty() ? nullptr : &frame.velocities[node]);
         text += '\n';
       }

@@ -117,7 +117,9 @@ class GlbWriter final : public MeshWriter {
                                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
     for (std::size_t f = 1; f < frames_.size(); ++f) {
       std::vector<float> offsets(base.size());
-      for (std::size_t i = 0; i < base.size(); ++i) offsets[i] = frames_[f].positions[i] - base[i];
+      for (std::size_t i = 0; i < base.size(); ++i) {
+        offsets[i] = static_cast<float>(frames_[f].coordinate(i) - frames_.front().coordinate(i));
+      }
       primitive.targets.push_back(
           {{"POSITION", add_floats(model, offsets, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER, true)}});
     }
@@ -133,6 +135,8 @@ class GlbWriter final : public MeshWriter {
     model.meshes.push_back(mesh);
     tinygltf::Node node;
     node.mesh = 0;
+    const auto& place = frames_.front().place;
+    if (place != std::array<double, 3>{}) node.translation.assign(place.begin(), place.end());
     model.nodes.push_back(node);
     tinygltf::Scene scene;
     scene.nodes.push_back(0);

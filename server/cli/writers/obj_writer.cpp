@@ -23,7 +23,7 @@ class ObjWriter final : public MeshWriter {
       text += 'v';
       for (std::size_t axis = 0; axis < 3; ++axis) {
         text += ' ';
-        append_number(text, frame.positions[i + axis]);
+        append_coordinate(text, frame.coordinate(i + axis));
       }
       text += '\n';
     }

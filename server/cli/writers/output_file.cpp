@@ -48,6 +48,14 @@ void OutputFile::close() {
 void append_number(std::string& text, float value) { append_shortest(text, value); }
 void append_number(std::string& text, double value) { append_shortest(text, value); }
 void append_number(std::string& text, int value) { append_shortest(text, value); }
+void append_coordinate(std::string& text, double value) {
+  const auto single = static_cast<float>(value);
+  if (double(single) == value) {
+    append_shortest(text, single);
+  } else {
+    append_shortest(text, value);
+  }
+}
 
 void append_bytes(std::string& bytes, float value) {
   append_word(bytes, std::bit_cast<std::uint32_t>(value));

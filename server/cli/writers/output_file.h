@@ -26,6 +26,8 @@ class OutputFile {
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);
 void append_number(std::string& text, int value);
+/// The same; what a float holds is written as one.
+void append_coordinate(std::string& text, double value);
 
 /// Appends a value's bytes, little endian.
 void append_bytes(std::string& bytes, float value);

@@ -29,7 +29,9 @@ class Pc2Writer final : public MeshWriter {
     const MeshFrame same = on_grid(frame, rows_, cols_);
     std::string bytes;
     bytes.reserve(same.positions.size() * sizeof(float));
-    for (const float value : same.positions) append_bytes(bytes, value);
+    for (std::size_t i = 0; i < same.positions.size(); ++i) {
+      append_bytes(bytes, static_cast<float>(same.coordinate(i)));
+    }
     file_.write(bytes);
     ++samples_;
   }
