@@ -25,6 +25,8 @@ export function clothMaterials({map, bumpMap}, high) {
   return {fabric, wire};
 }
 
+const same = (a, b) => a.every((value, axis) => value === b[axis]);
+
 /** One cloth on the stage: takes frames, keeps a mesh of the level at hand. */
 export class ClothView {
   /**
@@ -39,11 +41,13 @@ export class ClothView {
     this.materials = materials;
     this.instant = instant;
     this.morph = new Morph(instant);
-    this.group = new Group();
+    this.group = new Group();  // stands at the origin
     this.rows = 0;
     this.cols = 0;
-    /** The record of the newest frame shown: level, rows, cols, positions. */
+    /** The record of the newest frame shown: level, rows, cols, origin, positions. */
     this.record = null;
+    /** Where in the world the mesh's own positions are from, m: its vertices have the same digits wherever the cloth is. */
+    this.origin = [0, 0, 0];
     /** The record's torn faces as they are drawn, on the mesh's own grid. */
     this.torn = new Set();
     this.centre = null;
@@ -54,6 +58,8 @@ export class ClothView {
    * @returns {boolean} whether the mesh still moves by itself (a morph is under way)
    */
   show(before, after, share, nowMs, pixel) {
+    if (!same(after.origin, this.origin)) this.#moveOrigin(after.origin);
+    if (!same(before.origin, this.origin)) before = after;
     // Between two levels a torn sheet's nodes would glide across its tears.
     this.morph.instant = this.instant || after.torn.length > 0;
     const mesh = this.morph.update(before, after, share, nowMs, pixel);
@@ -69,7 +75,7 @@ export class ClothView {
     this.geometry.boundingSphere = null;  // what a ray is tried against first: computed when one is
     normal.needsUpdate = true;
     this.record = after;
-    this.centre = centreOf(after.positions);
+    this.centre = this.#inWorld(centreOf(after.positions));
     return this.morph.active;
   }
 
@@ -89,9 +95,9 @@ export class ClothView {
     const column = Math.min(this.cols - 2, Math.floor(u * (this.cols - 1))), row = Math.min(this.rows - 2, Math.floor(v * (this.rows - 1)));
     const right = u * (this.cols - 1) - column, down = v * (this.rows - 1) - row;
     const at = (r, c, axis) => positions[3 * (r * this.cols + c) + axis];
-    return [0, 1, 2].map((axis) =>
+    return this.#inWorld([0, 1, 2].map((axis) =>
       (1 - down) * ((1 - right) * at(row, column, axis) + right * at(row, column + 1, axis)) +
-      down * ((1 - right) * at(row + 1, column, axis) + right * at(row + 1, column + 1, axis)));
+      down * ((1 - right) * at(row + 1, column, axis) + right * at(row + 1, column + 1, axis))));
   }
 
   /** (u, v) of a point of the mesh by its texture coordinates. */
@@ -101,7 +107,7 @@ export class ClothView {
 
   /** Lowest y shown, m. */
   lowest() {
-    return lowestOf(this.geometry.attributes.position.array);
+    return this.origin[1] + lowestOf(this.geometry.attributes.position.array);
   }
 
   set wireframe(visible) {
@@ -113,6 +119,17 @@ export class ClothView {
     this.geometry?.dispose();
     this.lines?.geometry.dispose();
     this.group.removeFromParent();
+  }
+
+  #inWorld(place) {
+    return place.map((value, axis) => this.origin[axis] + value);
+  }
+
+  /** Of a cloth that has gone far: what was shown from the old one is not mixed with what is from the new one. */
+  #moveOrigin(origin) {
+    this.origin = origin;
+    this.group.position.fromArray(origin);
+    this.morph = new Morph(this.instant);
   }
 
   /** Draws all faces but these. */

@@ -26,7 +26,7 @@ export function publishHook({link, show, rig, stage, hand, clothHand, counts, la
     /** Newest decoded positions of a cloth, as plain numbers. */
     positions(cloth = 0) {
       const record = show.timeline.newest?.cloths.find((each) => each.cloth === cloth);
-      return record ? Array.from(record.positions) : null;
+      return record ? Array.from(record.positions, (value, i) => record.origin[i % 3] + value) : null;
     },
     setCameraDistance(distance) {
       rig.goTo(distance);

@@ -63,6 +63,7 @@ async function open(attempt = 0) {
     WebSocket: CountingSocket,
     client: 'weft page',
     reconnect: true,
+    local: true,
     onmessage: (message) => {
       if (mine !== client) return;
       self.postMessage({kind: 'message', message});

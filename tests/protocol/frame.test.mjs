@@ -15,7 +15,7 @@ for (const { name, hex, expect } of frames.good) {
     assert.equal(frame.cloths.length, expect.cloths.length);
     frame.cloths.forEach(({ positions, ...header }, i) => {
       const { cloth, level, simulated_level: simulatedLevel, rows, cols, quantum, torn, positions_f32: bytes } = expect.cloths[i];
-      assert.deepEqual(header, { cloth, level, simulatedLevel, rows, cols, quantum, torn });
+      assert.deepEqual(header, { cloth, level, simulatedLevel, rows, cols, quantum, origin: [0, 0, 0], torn });
       assert.equal(Buffer.from(positions.buffer).toString('hex'), bytes);
     });
   });
@@ -33,6 +33,16 @@ test('a frame inside a larger buffer is read from its own place', () => {
   const frame = decodeFrame(larger.subarray(7, larger.length - 4));
   assert.deepEqual(frame.balls, expect.balls);
   assert.equal(Buffer.from(frame.cloths[1].positions.buffer).toString('hex'), expect.cloths[1].positions_f32);
+});
+
+test('positions from an origin near the cloth are exact where an f32 of the world is not', () => {
+  const { hex, expect } = frames.good.find(({ name }) => name === 'far');
+  const [{ origin, quantum, q }] = expect.cloths;
+  const [cloth] = decodeFrame(fromHex(hex).buffer, { local: true }).cloths;
+  assert.ok(cloth.origin.every((value, axis) => value % 16 === 0 && Math.abs(value - origin[axis]) <= 8));
+  cloth.positions.forEach((value, i) => assert.equal(cloth.origin[i % 3] + value, origin[i % 3] + quantum * q[i % 3][Math.floor(i / 3)]));
+  const near = frames.good.find(({ name }) => name === 'ramp');  // within half a grid of the world's origin
+  assert.deepEqual(decodeFrame(fromHex(near.hex).buffer, { local: true }), decodeFrame(fromHex(near.hex).buffer));
 });
 
 test('every beginning of a frame is refused', () => {

@@ -27,6 +27,7 @@ export const SUBPROTOCOL = 'weft.v1';
  * @property {number} rows nodes along v
  * @property {number} cols nodes along u
  * @property {number} quantum m: positions are exact to half of it
+ * @property {Vector} origin in the world, m: positions are from there; [0, 0, 0] unless decoded with `local`
  * @property {Float32Array} positions x, y, z interleaved, row by row, m
  * @property {number[]} torn faces not to be drawn, ascending: r * (cols - 1) + c is the cell right of and below node (r, c)
  * @typedef {{ball: number, position: Vector, radius: number, motion: 'kinematic'|'dynamic', friction?: number}} Ball friction: in `scene` and events
@@ -64,6 +65,7 @@ const MIN_SIDE = 2, MAX_SIDE = 1025;
 const BALL_BYTES = 24;
 const OBSTACLE_BYTES = 32;
 const MAX_FLOAT = 3.4028234663852886e38;
+const LOCAL_GRID = 16;  // m, what origins are multiples of: from frame to frame mostly the same
 
 /** @returns {never} */
 function malformed(reason) {
@@ -73,9 +75,11 @@ function malformed(reason) {
 /**
  * Decodes one binary message. Throws a WeftError `bad_frame` on anything malformed.
  * @param {ArrayBuffer|ArrayBufferView} message
+ * @param {{local?: boolean}} [options] local: positions are from an `origin` of each cloth's near it, for whoever shows cloths far
+ *   from the world's: a Float32Array has 1 mm at 10 km
  * @returns {Frame}
  */
-export function decodeFrame(message) {
+export function decodeFrame(message, { local = false } = {}) {
   const view = ArrayBuffer.isView(message)
     ? new DataView(message.buffer, message.byteOffset, message.byteLength)
     : new DataView(message);
@@ -100,7 +104,7 @@ export function decodeFrame(message) {
     frame.stamp ??= stamp;
     const payload = new Uint8Array(view.buffer, view.byteOffset + at + headerBytes, payloadBytes);
     const type = view.getUint8(at + 5);
-    if (type === 1) frame.cloths.push(readCloth(view, at, payload));
+    if (type === 1) frame.cloths.push(readCloth(view, at, payload, local));
     if (type === 4) readTears(view, at, payload, frame.cloths);
     if (type === 2) frame.balls.push(...readBalls(view, at, payload));
     if (type === 3) frame.obstacles.push(...readObstacles(view, at, payload));  // other types: of a later minor version
@@ -126,7 +130,7 @@ function readStamp(view, at) {
 }
 
 /** @returns {Cloth} */
-function readCloth(view, at, payload) {
+function readCloth(view, at, payload, local) {
   if (view.getUint8(at + 10) !== 1) malformed(`codec ${view.getUint8(at + 10)}`);
   const bits = view.getUint8(at + 11);
   if (bits < 8 || bits > 16) malformed(`${bits} bits`);
@@ -138,6 +142,7 @@ function readCloth(view, at, payload) {
   const reach = quantum * (2 ** bits - 1);
   if ((quantumBits & 0x807fffff) !== 0 || exponent === 0 || exponent === 255 ||
       !origin.every((value) => Math.abs(value) + reach <= MAX_FLOAT)) malformed('unusable origin or quantum');
+  const from = /** @type {Vector} */ (origin.map((value) => (local ? LOCAL_GRID * Math.round(value / LOCAL_GRID) || 0 : 0)));
   return {
     cloth: view.getUint32(at + 12, true),
     level: view.getUint8(at + 36),
@@ -145,7 +150,8 @@ function readCloth(view, at, payload) {
     rows,
     cols,
     quantum,
-    positions: decodeGrid(payload, rows, cols, bits, origin, quantum),
+    origin: from,
+    positions: decodeGrid(payload, rows, cols, bits, origin.map((value, axis) => value - from[axis]), quantum),
     torn: [],
   };
 }
@@ -284,6 +290,7 @@ export function messageText(op, members = {}, id = undefined) {
  * @property {(error: Error) => void} [onerror] malformed frames, and what onframe throws; default: console.error
  * @property {string} [client] name told to the server
  * @property {number} [window] unacknowledged frames, 1..8 (default 2); 0: no flow control, the server sends as fast as it can
+ * @property {boolean} [local] as decodeFrame's (default false)
  * @property {number} [timeout] ms to wait for a connection or a reply (default 5000)
  * @property {boolean} [reconnect] come back after a lost connection, and keep trying at first: 0.25 s, doubled up to 10 s,
  *   jittered (default false)
@@ -698,7 +705,7 @@ export class WeftClient {
       const socket = this.#socket, data = this.#newest;
       this.#newest = null;
       try {
-        const frame = decodeFrame(data);
+        const frame = decodeFrame(data, { local: this.#options.local });
         this.frame = frame;
         for (const waiter of [...this.#waiters]) {
           if (!waiter.accept(frame)) continue;
