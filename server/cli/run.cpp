@@ -125,14 +125,20 @@ int run(const RunOptions& options) {
   Outputs outputs(options, scene.simulation);
   outputs.write(0, simulation);
 
-  double seconds = 0;  // of the steps alone
+  double seconds = 0, longest = 0;  // of the steps alone
+  int longest_frame = 0;
   host::GuardLog guard;
   {
     Progress progress(scene.name, options.frames);
     for (int frame = 1; frame <= options.frames; ++frame) {
       const auto start = Clock::now();
       simulation.step();
-      seconds += std::chrono::duration<double>(Clock::now() - start).count();
+      const double step = std::chrono::duration<double>(Clock::now() - start).count();
+      seconds += step;
+      if (step > longest) {
+        longest = step;
+        longest_frame = frame;
+      }
       for (const host::GuardLog::Notice& notice : guard.stepped(simulation))
         progress.print("weft: " + notice.message);
       outputs.write(frame, simulation);
@@ -142,15 +148,17 @@ int run(const RunOptions& options) {
   outputs.finish();
   if (const auto counts = guard.stats_json(); !counts.is_null())
     std::fprintf(stderr, "weft: %s: step guard: %s\n", scene.name.c_str(), counts.dump().c_str());
-  std::printf("%s: %d frames, %g s simulated in %.2f s, %.3f ms a frame\n", scene.name.c_str(),
-              options.frames, simulation.time(), seconds,
-              options.frames ? 1e3 * seconds / options.frames : 0.0);
+  std::printf("%s: %d frames, %g s simulated in %.2f s, %.3f ms a frame, longest %.3f ms (frame %d)\n",
+              scene.name.c_str(), options.frames, simulation.time(), seconds,
+              options.frames ? 1e3 * seconds / options.frames : 0.0, 1e3 * longest, longest_frame);
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
     const ClothReport report = simulation.report(i);
     const Grid& grid = simulation.cloths()[i].particles().grid();
-    std::printf("%s: level %d, %d x %d nodes, %d substeps a frame, largest strain %.2g %%\n",
-                simulation.cloths()[i].description().name.c_str(), report.level, grid.cols, grid.rows,
-                report.substeps, 100 * report.strain.max);
+    std::printf(
+        "%s: level %d, %d x %d nodes, %d substeps a frame, stretched by %.2g %% and compressed by %.2g %% at "
+        "most\n",
+        simulation.cloths()[i].description().name.c_str(), report.level, grid.cols, grid.rows,
+        report.substeps, 100 * report.strain.max, 100 * report.strain.max_compression);
   }
   if (options.hash) std::printf("%016" PRIx64 "\n", state_hash(simulation));
   const auto& cloths = simulation.cloths();

@@ -6,8 +6,8 @@ namespace weft::cli {
 namespace {
 
 constexpr std::string_view kHeader =
-    "frame,time,level,substeps,milliseconds,kinetic_energy,potential_energy,max_strain,mean_strain,nodes_in_"
-    "contact";
+    "frame,time,level,substeps,milliseconds,kinetic_energy,potential_energy,max_strain,max_"
+    "compression,mean_strain,nodes_in_contact";
 
 }  // namespace
 
@@ -34,6 +34,7 @@ void StatsWriter::write(int frame, const Simulation<float>& simulation) {
     field(report.kinetic_energy);
     field(report.potential_energy);
     field(report.strain.max);
+    field(report.strain.max_compression);
     field(report.strain.mean);
     field(report.nodes_in_contact);
     if (several_cloths_) line += "," + simulation.cloths()[cloth].description().name;

@@ -303,9 +303,10 @@ StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& posit
   for (const SpringFamily& family : families_) {
     if (kind_of(family) != kAlongU && kind_of(family) != kAlongV) continue;
     for_each_spring(*this, family, position, [&](const Vec3& d, double) {
-      const double one = std::abs(d.norm() - family.rest_length) / family.rest_length;
-      strain.max = std::max(strain.max, one);
-      sum += one;
+      const double stretch = (d.norm() - family.rest_length) / family.rest_length;
+      strain.max = std::max(strain.max, stretch);
+      strain.max_compression = std::max(strain.max_compression, -stretch);
+      sum += std::abs(stretch);
       ++count;
     });
   }

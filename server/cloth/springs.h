@@ -24,9 +24,12 @@ Vec3 spring_force(const Vec3& d, double rest_length, double stiffness, const Spr
 Eigen::Matrix3d spring_stiffness(const Vec3& d, double rest_length, double stiffness,
                                  const SpringLimit& limit = {});
 
+/// Over structural springs; both extremes are at least 0. Where cloth crumples springs are compressed, and
+/// nothing is stretched.
 struct StructuralStrain {
-  double max = 0;   ///< largest |l - l0| / l0 over structural springs
-  double mean = 0;  ///< mean of the same
+  double max = 0;              ///< largest stretch, (l - l0) / l0
+  double max_compression = 0;  ///< largest shortening, (l0 - l) / l0
+  double mean = 0;             ///< mean of |l - l0| / l0
 };
 
 /// The springs of one cloth at one level. Families of zero stiffness are left out: they cost nothing. With a

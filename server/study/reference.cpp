@@ -24,8 +24,8 @@ Trajectory extrapolated(const Trajectory& coarse, const Trajectory& fine) {
     std::transform(less.positions.begin(), less.positions.end(), more.positions.begin(),
                    more.positions.begin(), from);
     more.centre += (more.centre - less.centre) / 3;
-    for (double Frame::*const each :
-         {&Frame::kinetic_energy, &Frame::potential_energy, &Frame::mean_strain, &Frame::max_strain}) {
+    for (double Frame::*const each : {&Frame::kinetic_energy, &Frame::potential_energy, &Frame::mean_strain,
+                                      &Frame::max_strain, &Frame::max_compression}) {
       more.*each = from(less.*each, more.*each);
     }
   }
@@ -55,7 +55,7 @@ Reference find_reference(const SimulationDescription& description, int level, in
   const auto run = [&](int substeps, double disturbance) {
     SimulationDescription stepped = description;
     stepped.integrator = tight_bdf2(substeps);
-    return simulate<double>(std::move(stepped), {level, frames, disturbance}, [&](int) {
+    return simulate<double>(std::move(stepped), {level, frames, 1, disturbance}, [&](int) {
       watch();
       return true;
     });

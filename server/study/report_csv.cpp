@@ -6,8 +6,10 @@ namespace weft::study {
 namespace {
 
 constexpr std::string_view kHeader =
-    "scene,level,integrator,setting,present,status,best,ms_per_frame,substeps,max_strain,rms_error,max_error,"
-    "shape_error,strain_error,energy_error,frequency_error,total_rms_error,total_max_error,total_shape_error,"
+    "scene,level,integrator,setting,present,status,best,ms_per_frame,substeps,max_strain,max_compression,rms_"
+    "error,"
+    "max_error,shape_error,strain_error,energy_error,frequency_error,total_rms_error,total_max_error,total_"
+    "shape_error,"
     "space_rms_error,reference_substeps,reference_change,rounding_change\n";
 
 /// Fields of one line, parted by commas.
@@ -47,6 +49,7 @@ std::string line_of(const Heading& heading, const LevelStudy& level, const Run& 
   line.number_if(done, run.milliseconds);
   done ? line.number(run.substeps) : line.text("");
   line.number_if(done, run.max_strain);
+  line.number_if(done, run.max_compression);
   for (const double error :
        {run.time.rms_position, run.time.max_position, run.time.mean_shape, run.time.strain}) {
     line.number_if(done, error);

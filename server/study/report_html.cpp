@@ -28,6 +28,7 @@ json json_of(const Run& run) {
   all["ms"] = run.milliseconds;
   all["substeps"] = run.substeps;
   all["max_strain"] = run.max_strain;
+  all["max_compression"] = run.max_compression;
   all["time"] = json_of(run.time);
   all["total"] = json_of(run.total);
   return all;

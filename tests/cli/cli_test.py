@@ -82,6 +82,17 @@ class Outputs(CliTest):
             self.assertEqual(stats[0], stats[1])
             self.assertEqual(len(stats[0]), 21)
 
+    def test_ends_with_the_longest_step_and_tells_stretch_from_compression(self):
+        result = self.run_ok("curtain", "--frames", 20, "--level", 4, "--stats", self.folder / "s.csv")
+        with open(self.folder / "s.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        mean, longest, frame = re.search(r"([\d.]+) ms a frame, longest ([\d.]+) ms \(frame (\d+)\)", result.stdout).groups()
+        self.assertGreaterEqual(float(longest), float(mean))
+        self.assertIn(int(frame), range(1, 21))
+        told = re.search(r"stretched by (\S+) % and compressed by (\S+) % at most\n", result.stdout).groups()
+        for value, column in zip(told, ("max_strain", "max_compression")):
+            self.assertAlmostEqual(float(value) / (100 * float(rows[-1][column])), 1, delta=0.051, msg=column)
+
     def test_several_cloths_have_files_and_rows_of_their_own(self):
         rows = self.stats("flag", "--frames", 1, "--level", 4, "--out", self.folder / "m.csv",
                           "--set", '/cloths/1={"name":"second","levels":{"min":3,"max":3}}')

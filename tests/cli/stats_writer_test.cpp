@@ -37,9 +37,10 @@ TEST_F(StatsWriterTest, OneStepOfFreeFall) {
   writer.finish();
   const std::vector<Row> rows = rows_of(bytes("stats.csv"));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0], (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy",
-                          "potential_energy", "max_strain", "mean_strain", "nodes_in_contact"}));
-  ASSERT_EQ(rows[1].size(), 10u);
+  EXPECT_EQ(rows[0],
+            (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy", "potential_energy",
+                 "max_strain", "max_compression", "mean_strain", "nodes_in_contact"}));
+  ASSERT_EQ(rows[1].size(), 11u);
   EXPECT_EQ(rows[1][0], "0");
   EXPECT_EQ(rows[1][1], "0");
   EXPECT_EQ(rows[1][2], "6");
@@ -51,7 +52,28 @@ TEST_F(StatsWriterTest, OneStepOfFreeFall) {
   EXPECT_NEAR(std::stod(rows[2][5]), 0.5 * 0.4 * 0.1635 * 0.1635, 1e-7);  // m v2 / 2
   EXPECT_NEAR(std::stod(rows[2][6]), -0.4 * 9.81 * 0.002725, 1e-5);       // m g y; float positions
   EXPECT_NEAR(std::stod(rows[2][7]), 0, 1e-5);
-  EXPECT_EQ(rows[2][9], "0");
+  EXPECT_EQ(rows[2][10], "0");
+}
+
+// 2 m x 2 m in 8 x 8 cells of 0.25 m, a corner moved along its row by 0.05 m out, then in: that row's last
+// spring is 0.3 m, then 0.2 m long. The last one of the column is sqrt(0.0625 + 0.0025) m = 0.25495 m long
+// either way, stretched by 0.0198.
+TEST_F(StatsWriterTest, StretchAndCompressionAreTwoColumns) {
+  SimulationDescription description;
+  ClothDescription& cloth = description.cloths.emplace_back();
+  cloth.min_level = cloth.initial_level = 3;
+  Simulation<float> simulation(description);
+  StatsWriter writer(path("stats.csv"), false);
+  for (const float offset : {0.05F, -0.1F}) {
+    simulation.cloths()[0].particles().position.x.at(8, 8) += offset;
+    writer.write(0, simulation);
+  }
+  writer.finish();
+  const std::vector<Row> rows = rows_of(bytes("stats.csv"));
+  EXPECT_NEAR(std::stod(rows[1][7]), 0.2, 1e-6);
+  EXPECT_NEAR(std::stod(rows[1][8]), 0, 1e-6);
+  EXPECT_NEAR(std::stod(rows[2][7]), 0.0198, 1e-4);
+  EXPECT_NEAR(std::stod(rows[2][8]), 0.2, 1e-6);
 }
 
 TEST_F(StatsWriterTest, SeveralClothsHaveALastColumnWithTheirNames) {

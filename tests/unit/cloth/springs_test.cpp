@@ -414,10 +414,14 @@ TEST(Springs, StructuralStrainByHand) {
   const Springs<double> springs(stiffnesses(100, 50, 10), Discretization::paper, {2, 2}, sheet.grid());
   const StructuralStrain strain = springs.structural_strain(sheet.position);
   EXPECT_NEAR(strain.max, 0.5, 1e-14);
+  EXPECT_EQ(strain.max_compression, 0);
   EXPECT_NEAR(strain.mean, (0.5 + std::sqrt(1.25) - 1) / 12, 1e-14);
-  // Compression counts like stretch.
+  // The first spring compressed by 0.75; what is stretched is the other alone, sqrt(1.5625) = 1.25 long.
   sheet.position.x.at(2, 2) -= 1.25;
-  EXPECT_NEAR(springs.structural_strain(sheet.position).max, 0.75, 1e-14);
+  const StructuralStrain crumpled = springs.structural_strain(sheet.position);
+  EXPECT_NEAR(crumpled.max_compression, 0.75, 1e-14);
+  EXPECT_NEAR(crumpled.max, 0.25, 1e-14);
+  EXPECT_NEAR(crumpled.mean, (0.75 + 0.25) / 12, 1e-14);
 }
 
 }  // namespace

@@ -31,7 +31,10 @@ struct Sheet {
   }
   bool tangled() const { return is_tangled(particles, springs); }
   void unfold() { weft::unfold(particles, cloth, kLevel); }
-  double strain() const { return springs.structural_strain(particles.position).max; }
+  double strain() const {
+    const StructuralStrain strain = springs.structural_strain(particles.position);
+    return std::max(strain.max, strain.max_compression);
+  }
   Vec3 centre_of_mass() const {
     Vec3 sum(0, 0, 0);
     each_node(particles.grid(),
