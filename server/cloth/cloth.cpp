@@ -14,6 +14,13 @@
 #include "cloth/unfold.h"
 
 namespace weft {
+namespace {
+
+/// Share of the springs' energy by which rounding the new nodes of a split may raise it.
+constexpr double kRounded = 0.005;
+
+}  // namespace
+
 template <class Real>
 Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
                    const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed)
@@ -64,7 +71,7 @@ void Cloth<Real>::fill() {
   } else if (!gas_ || gas_->inflation() != *filling_) {
     const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
     gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
-    if (!gas_->fills(time_) && !steps_implicitly()) unsettled_ = Unsettled::by_gas;
+    if (!gas_->fills(time_)) unsettled_ = Unsettled::by_gas;
   }
 }
 
@@ -101,6 +108,7 @@ bool Cloth<Real>::apply_pending_level() {
   guard_.repair(particles_);
   held_ = elastic_energy();
   had_ = held_ + energy_of_nodes();
+  if (target > level_) held_ *= 1 + kRounded;
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
@@ -118,15 +126,9 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
-  // The paper's own rules change levels as the paper does. An implicit step finds its balance by itself, but
-  // what springs hold more than before it would make motion.
-  if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum) {
-    if (!steps_implicitly()) {
-      unsettled_ = Unsettled::by_level;
-    } else if (elastic_energy() > held_) {
-      unsettled_ = Unsettled::by_gain;
-    }
-  }
+  // The paper's own rules change levels as the paper does.
+  if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum)
+    unsettled_ = Unsettled::by_level;
   return true;
 }
 

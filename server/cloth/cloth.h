@@ -43,7 +43,8 @@ class Cloth {
   /// Asks for a level, clamped to the cloth's own limits; it is reached before the next step.
   void request_level(int level);
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
-  /// The next step then settles the cloth first; an implicit one where springs gained (settle.h).
+  /// The next step then settles the cloth first, if springs gained or nodes are in solids (settle.h),
+  /// whatever integrator makes it.
   bool apply_pending_level();
 
   /// The next advance() is by `integrator`, which knows nothing of the steps before.
@@ -122,7 +123,7 @@ class Cloth {
   /// Whether the next step has to settle it first, among these solids; a sleeping one that is wakes.
   bool unsettled(const std::vector<Solid>& solids);
   /// Does so now, before whoever looks at where the step begins; otherwise advance() does.
-  void settle_down(const std::vector<Solid>& solids, double time, double dt);
+  void settle_down(const std::vector<Solid>& solids, double time);
   /// The next step begins where the cloth has been settled: where nothing has stopped it.
   bool settled() const { return settled_ != Unsettled::no; }
   /// One step among the solids as they move in it in the world; what the cloth gives them is kept, and theirs

@@ -9,18 +9,17 @@
 namespace weft {
 namespace {
 
-/// The first takes out most of the energy, the second what the nodes pushed out of solids leave: of 8.9 J in
-/// a draped sheet of 2 m whose level falls from 5 to 4 they leave 1.3 and 0.8, two more 0.8; without the
-/// third changes at every step bring 0.15 J of motion into a drape of XPBD at 30 Hz, with it less than 0.11.
-/// What a solid lifts pulls up all that hangs on it: where a ball grows to twice its size, the drape is left
-/// with 19 m/s by two steps, 6 m/s by five, 6 m/s by ten (XPBD).
-/// Of six random scenes in which merges gave motion to implicit methods four still gained with three steps,
-/// four with six, two with twelve.
+/// Cells: nodes that lie on a solid are in it by rounding, and a step that pushes out what is a little deeper
+/// strains no spring.
+constexpr double kShallow = 0.01;
+
+/// Relaxation steps at most (DECISIONS.md): a solid lifts what hangs on it step by step; by level they end
+/// once there is nothing left to let go.
 int steps_from(Unsettled by) {
   switch (by) {
     case Unsettled::by_solid:
       return 5;
-    case Unsettled::by_gain:
+    case Unsettled::by_level:
       return 12;
     default:
       return 3;
@@ -31,7 +30,21 @@ int steps_from(Unsettled by) {
 template <class Real>
 bool hold_at_most(double energy, const Particles<Real>& particles, const Forces<Real>& forces) {
   const double springs = forces.springs->energy(particles.position);
-  return springs + (forces.plate != nullptr ? forces.plate->energy(particles.position) : 0) <= energy;
+  const double held = springs + (forces.plate != nullptr ? forces.plate->energy(particles.position) : 0);
+  return held <= energy;
+}
+
+/// Some free node is deeper in a solid than kShallow cells.
+template <class Real>
+bool any_deep(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& still,
+              double cell) {
+  const auto position = kernels::components(particles.position);
+  const std::vector<Touch>& touches = contact.inside(particles, still, {});
+  return std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+    const auto solid = std::find_if(still.begin(), still.end(),
+                                    [&](const Solid& each) { return each.id == touch.collider; });
+    return solid->depth(at<Real>(position, touch.node), 0) > kShallow * cell;
+  });
 }
 
 /// As they are when the step begins, at rest.
@@ -65,11 +78,12 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 }
 
 template <class Real>
-void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
+bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
             const std::vector<Solid>& solids, double longest, double enough) {
   const ClothDescription& cloth = *forces.context.cloth;
   const double crossing =
       cloth.size.maxCoeff() * std::sqrt(cloth.material.density / cloth.material.structural);
+  const double cell = cloth.size.maxCoeff() / std::max(particles.grid().rows - 1, particles.grid().cols - 1);
   const Particles<Real> before = particles;
   std::vector<Solid> still = at_start(solids);
   const Wind calm;
@@ -77,17 +91,23 @@ void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   forces.effects = &no_effects;
   forces.context.wind = &calm;
   const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
-  bool sound = true;
+  const auto fits_its_level = [&] {
+    return hold_at_most(enough, particles, forces) &&
+           (contact == nullptr || !any_deep(particles, *contact, still, cell));
+  };
+  bool sound = true, moved = false;
   for (int step = 0; step < steps_from(by) && sound; ++step) {
+    if (by == Unsettled::by_level && fits_its_level()) break;
+    moved = true;
     stop(particles);
     sound =
         relaxing->advance(particles, forces, contact, still, forces.context.time, std::min(crossing, longest))
             .sound;
-    if (by == Unsettled::by_gain && hold_at_most(enough, particles, forces)) break;
   }
   if (!sound) particles.position = before.position;
   particles.velocity = before.velocity;
   particles.acceleration = before.acceleration;
+  return moved && sound;
 }
 
 template <class Real>
@@ -125,9 +145,9 @@ void take_from_motion(Particles<Real>& particles, double energy) {
 
 template bool is_put_onto<float>(const Particles<float>&, Contact<float>&, const std::vector<Solid>&);
 template bool is_put_onto<double>(const Particles<double>&, Contact<double>&, const std::vector<Solid>&);
-template void settle<float>(Particles<float>&, Unsettled, Forces<float>, Contact<float>*,
+template bool settle<float>(Particles<float>&, Unsettled, Forces<float>, Contact<float>*,
                             const std::vector<Solid>&, double, double);
-template void settle<double>(Particles<double>&, Unsettled, Forces<double>, Contact<double>*,
+template bool settle<double>(Particles<double>&, Unsettled, Forces<double>, Contact<double>*,
                              const std::vector<Solid>&, double, double);
 template void take_from_motion<float>(Particles<float>&, double);
 template void take_from_motion<double>(Particles<double>&, double);

@@ -7,11 +7,11 @@ namespace weft {
 enum class Unsettled {
   no,
   /// Nodes taken over from a finer level leave the springs across folds compressed, new ones lie on chords,
-  /// in solids too: for methods that would turn that into motion.
+  /// in solids too. Only what springs and plate hold beyond what they held at the level left is let go: what
+  /// the cloth had stays, and where it gained nothing it keeps place and velocity to the bit.
   by_level,
-  /// The same where springs and plate hold more than they did at the level left, for methods that find their
-  /// balance by themselves, but would make that motion.
-  by_gain,
+  /// The start is tangled (unfold.h).
+  by_tangle,
   /// A solid was put onto nodes: a ball of twice the size in a drape has a fifth of a metre to lift them, and
   /// a step that did so would send the hem off at 25 m/s.
   by_solid,
@@ -30,12 +30,12 @@ bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const
 /// stay as they were. Each lasts as long as a wave of stretch takes to run across the sheet, sqrt(density /
 /// structural) times its size (`longest`, s, at most): what is stretched evens out, folds keep their shape.
 ///
-/// There are no more of them once springs and plate hold no more than `enough`, J, which is only asked
-/// by_gain.
+/// By level there are no more of them once springs and plate hold no more than `enough`, J, and no node is
+/// deep in a solid: none at all where that is so already.
 ///
-/// Nothing happens if no relaxed state is found.
+/// Nothing happens if no relaxed state is found. Returns whether nodes have moved.
 template <class Real>
-void settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
+bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
             const std::vector<Solid>& solids, double longest, double enough = 0);
 
 /// Takes so much energy, J, from the free nodes' motion, or what there is of it: all are slowed down in

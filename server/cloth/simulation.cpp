@@ -173,7 +173,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
                         parts_left);
   meet_bodies(dt);
   if (cloths_.size() > 1) share_balls(dt);
-  settle_cloths(time, dt);
+  settle_cloths(time);
   double layers = 0;  // s
   if (layers_) {
     const auto search = Clock::now();
@@ -232,7 +232,7 @@ void Simulation<Real>::for_each_cloth(const Work& work) {
 }
 
 template <class Real>
-void Simulation<Real>::settle_cloths(double time, double dt) {
+void Simulation<Real>::settle_cloths(double time) {
   const std::vector<Solid>& solids = colliders_.solids();
   std::vector<char> unsettled(cloths_.size());
   std::transform(cloths_.begin(), cloths_.end(), unsettled.begin(),
@@ -240,7 +240,7 @@ void Simulation<Real>::settle_cloths(double time, double dt) {
   if (std::none_of(unsettled.begin(), unsettled.end(), [](char each) { return each != 0; })) return;
   for_each_cloth([&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time, dt);
+    if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time);
   });
 }
 

@@ -138,7 +138,7 @@ class Simulation {
   void for_each_cloth(const Work& work);
   /// Those that have to settle do so before contact between cloths looks where they are: what the step then
   /// keeps apart would else be held in a shape that is not settled.
-  void settle_cloths(double time, double dt);
+  void settle_cloths(double time);
   /// All cloths through the step, as it is for each of them alone.
   void advance_cloths(double time, double dt);
   void collect_guard_events();

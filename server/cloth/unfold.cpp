@@ -80,8 +80,8 @@ void unfold_from_below(Particles<Real>& sheet, const ClothDescription& cloth, in
   const Springs<Real> springs(cloth.material, cloth.discretization, cloth.size, sheet.grid());
   if (level == kCoarsest) stir(sheet, kWayOut * cloth.size.maxCoeff());
   for (int left = level > kCoarsest ? 1 : kTimes; left > 0; --left) {
-    settle<Real>(sheet, Unsettled::by_level, {.springs = &springs, .context = {.cloth = &cloth}}, nullptr, {},
-                 std::numeric_limits<double>::infinity());
+    settle<Real>(sheet, Unsettled::by_tangle, {.springs = &springs, .context = {.cloth = &cloth}}, nullptr,
+                 {}, std::numeric_limits<double>::infinity());
   }
 }
 
