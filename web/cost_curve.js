@@ -1,10 +1,10 @@
 /**
  * What the server's `curve` and `stats.quality` mean for the cost panel. No page in here: tested in Node.
  *
- * @typedef {{integrator: string, setting: string, ms: number, error: number, best: boolean, own: boolean}} Point
+ * @typedef {{integrator: string, setting: string, ms: number, error: number, span: number, best: boolean, own: boolean}} Point
  * @typedef {{level: number, space: number, floor: number, points: Point[]}} Level points from cheap to dear
  * @typedef {{wish: {max_error?: number, max_ms?: number}, state: string, integrator?: string, setting?: string, level?: number,
- *   ms_expected?: number, ms_measured?: number, error_expected?: number, met?: boolean}} Quality
+ *   ms_expected?: number, ms_measured?: number, error_expected?: number, span?: number, met?: boolean}} Quality `span`: s of the scene, from its start
  */
 
 /** "0.42 %" of a share: two digits that matter. */
@@ -17,6 +17,9 @@ export function digits(value) {
   const rounded = Number(value.toPrecision(2));
   return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
 }
+
+/** Over which an error was measured. */
+export const spanText = (span) => `over the scene’s first ${digits(span)} s`;
 
 /** @param {{levels: Level[]}} curve @returns {Level|undefined} */
 export const levelOf = (curve, level) => curve.levels.find((each) => each.level === level);

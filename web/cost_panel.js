@@ -1,9 +1,9 @@
-import {chartColumns, chartText, digits, levelOf, neighbourText, percent} from './cost_curve.js';
+import {chartColumns, chartText, digits, levelOf, neighbourText, percent, spanText} from './cost_curve.js';
 
 const byId = (id) => document.getElementById(id);
 const kHeight = 170;  // of the chart, CSS pixels
 const kStates = {
-  measuring: 'Measuring this scene beside its steps. It takes up to a minute.',
+  measuring: 'Measuring this scene beside its steps. It takes a minute or more.',
   unavailable: 'What this scene costs could not be measured.',
 };
 /** Of the quality's number, by what is wished: from, to, and what one of the server's units is here. */
@@ -92,7 +92,7 @@ export class CostPanel {
     const known = curve && quality?.ms_measured > 0;
     write('cost-state', this.#stateText());
     write('cost-now', known ? `${quality.integrator}, ${quality.setting}` : '');
-    write('cost-figures', known ? `Level ${quality.level}: ${digits(quality.ms_measured)} ms a step, error ${percent(quality.error_expected)}` : '');
+    write('cost-figures', known ? `Level ${quality.level}: ${digits(quality.ms_measured)} ms a step, error ${percent(quality.error_expected)} ${spanText(quality.span)}` : '');
     write('cost-up', (known && neighbourText(curve, quality, 1)) || '');
     write('cost-down', (known && neighbourText(curve, quality, -1)) || '');
     const level = known && levelOf(curve, quality.level);
@@ -107,7 +107,7 @@ export class CostPanel {
     if (quality.state === 'own') return 'Stepped in the scene’s own way.';
     if (quality.state !== 'chosen') return kStates[quality.state];
     const {max_error: error, max_ms: ms} = quality.wish;
-    const wish = error !== undefined ? `an error of ${percent(error)}` : `${digits(ms)} ms a step`;
+    const wish = error !== undefined ? `an error of ${percent(error)} ${spanText(quality.span)}` : `${digits(ms)} ms a step`;
     return quality.met ? `Within ${wish}.` : `Nothing keeps ${wish}; this comes nearest.`;
   }
 

@@ -134,7 +134,8 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Quality& quality, Seat&)
   quality_.wish({quality.max_error, quality.max_ms});
   request_levels();
   tell_event("quality", takes_effect_, {{"wish", quality_.wish_json()}});
-  return json::object();
+  const json quality_now = quality_.stats_json();
+  return quality_now.is_null() ? json::object() : json({{"quality", quality_now}});
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Cost&, Seat& seat) {

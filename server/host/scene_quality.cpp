@@ -19,6 +19,7 @@ json point_json(const Choice& choice, const study::LevelChoices& level) {
           {"setting", study::setting_of(choice.integrator)},
           {"ms", choice.milliseconds},
           {"error", choice.error},
+          {"span", choice.span},
           {"best", std::any_of(level.front.begin(), level.front.end(), is)},
           {"own", level.own && is(*level.own)}};
 }
@@ -100,6 +101,7 @@ json SceneQuality::stats_json() const {
     stats["ms_expected"] = choice->milliseconds;
     stats["ms_measured"] = keeper_->measured_ms();
     stats["error_expected"] = choice->error;
+    stats["span"] = choice->span;
     stats["space"] = keeper_->choices().at(choice->level)->space;
     stats["met"] = keeper_->met();
   }

@@ -18,10 +18,11 @@
 namespace weft::host {
 namespace {
 
-constexpr double kHorizon = 0.5;  // s of the scene that are studied
-constexpr double kBudget = 30;    // s of processor time
+constexpr double kHorizon = 2;                      // s of the scene in which every way to step it is tried
+constexpr double kFollowed = 10;                    // s of it over which the best of them are followed
+constexpr double kBudget = 40, kFollowBudget = 20;  // s of processor time
 /// s of processor time: what is not known by then is too large a scene to be studied beside its viewers.
-constexpr double kDeadline = 100;
+constexpr double kDeadline = 200;
 constexpr double kTarget = 1e-4;  // of the references, in cloth sizes: 0.2 mm of a cloth of 2 m
 constexpr int kNiceness = 10;     // viewers' frames come first
 
@@ -58,9 +59,11 @@ study::StudyPlan plan_of(const SimulationDescription& description) {
   study::StudyPlan plan;
   plan.levels = study::levels_of(description);
   plan.integrators = study::integrator_names();
-  const double frames = std::round(kHorizon / description.time_step);
-  plan.frames = static_cast<int>(std::clamp(frames, 1.0, double{study::kMaxFrames}));
+  const auto frames = [&](double span) { return std::round(span / description.time_step); };
+  plan.frames = static_cast<int>(std::clamp(frames(kHorizon), 1.0, double{study::kMaxFrames}));
+  plan.followed_frames = static_cast<int>(std::max(frames(kFollowed), 1.0));
   plan.budget = kBudget;
+  plan.follow_budget = kFollowBudget;
   plan.target = kTarget;
   return plan;
 }

@@ -6,27 +6,39 @@
 namespace weft::study {
 namespace {
 
+/// LevelChoices::front, of runs from cheap to dear of which none beats another over the shorter span.
+std::vector<Choice> front_of(const std::vector<Choice>& best) {
+  const auto dearest_followed = std::max_element(
+      best.rbegin(), best.rend(), [](const Choice& a, const Choice& b) { return a.span < b.span; });
+  std::vector<Choice> front;
+  for (auto choice = best.begin(); choice != best.end(); ++choice) {
+    if (choice < dearest_followed.base() && choice->span < dearest_followed->span) continue;
+    if (front.empty() || choice->error < front.back().error) front.push_back(*choice);
+  }
+  return front;
+}
+
 LevelChoices choices_of(const Study& study, const LevelStudy& level) {
   LevelChoices choices;
   choices.level = level.level;
   if (!level.reference.usable()) return choices;
   choices.space = study.judged(level.space);
   choices.floor = study.floor(level.reference);
+  std::vector<Choice> best;
   for (const Run& run : level.runs) {
     if (run.status != Run::Status::done) continue;
+    const int frames = run.followed ? study.followed_frames : study.frames;
     const Choice choice{level.level, run.candidate.integrator, run.milliseconds,
-                        std::max(study.judged(run.time), choices.floor)};
+                        std::max(run.followed.value_or(study.judged(run.time)), choices.floor),
+                        frames * study.time_step};
     choices.all.push_back(choice);
-    if (run.best) choices.front.push_back(choice);
+    if (run.best) best.push_back(choice);
     if (run.candidate.present) choices.own = choice;
   }
   const auto cheaper = [](const Choice& a, const Choice& b) { return a.milliseconds < b.milliseconds; };
   std::stable_sort(choices.all.begin(), choices.all.end(), cheaper);
-  std::stable_sort(choices.front.begin(), choices.front.end(), cheaper);
-  // Equals in both are all on a Pareto front; one of them is enough to choose from.
-  const auto same_error = [](const Choice& a, const Choice& b) { return a.error == b.error; };
-  choices.front.erase(std::unique(choices.front.begin(), choices.front.end(), same_error),
-                      choices.front.end());
+  std::stable_sort(best.begin(), best.end(), cheaper);
+  choices.front = front_of(best);
   return choices;
 }
 

@@ -14,14 +14,17 @@ struct Choice {
   IntegratorDescription integrator;
   double milliseconds = 0;  ///< a frame, of processor time on one thread
   double error = 0;         ///< of the steps, as Study judges it; never below what the reference can tell
+  double span = 0;          ///< s from the scene's start, over which that was measured
 };
 
 /// What there is at one level.
 struct LevelChoices {
   int level = 0;
-  double space = 0;           ///< error of the grid itself, against the finest level studied
-  double floor = 0;           ///< smaller errors than this cannot be told apart
-  std::vector<Choice> front;  ///< the best choices, from cheap to accurate: error falls strictly
+  double space = 0;  ///< error of the grid itself, against the finest level studied
+  double floor = 0;  ///< smaller errors than this cannot be told apart
+  /// The best choices, from cheap to accurate: error falls strictly. Where runs were followed over a longer
+  /// span none is here whose error is known over the shorter one alone, but what is dearer than all of them.
+  std::vector<Choice> front;
   std::optional<Choice> own;  ///< the scene's own integrator, if it stayed sound
   std::vector<Choice> all;    ///< every run that was done, those above included, from cheap to dear
 };

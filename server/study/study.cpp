@@ -17,28 +17,24 @@ double share_of(const std::vector<int>& levels, std::size_t at) {
 
 class Runner {
  public:
-  Runner(const SimulationDescription& description, int frames, Allowance allowance,
+  Runner(const SimulationDescription& description, RunPlan plan, Allowance allowance,
          const std::function<void()>& watch)
-      : description_(description), frames_(frames), allowance_(std::move(allowance)), watch_(watch) {}
+      : description_(description), plan_(plan), allowance_(std::move(allowance)), watch_(watch) {}
 
-  void run(const Reference& reference, const Reference& finest, Run& run) const {
-    if (allowance_.left() <= 0) return;
+  const Allowance& allowance() const { return allowance_; }
+
+  /// Not complete if it went bad or does not fit into the allowance.
+  Trajectory make(const Candidate& candidate, int level) const {
+    if (allowance_.left() <= 0) return {};
     SimulationDescription stepped = description_;
-    stepped.integrator = run.candidate.integrator;
+    stepped.integrator = candidate.integrator;
+    RunPlan plan = plan_;
+    plan.level = level;
     const double begin = allowance_.now();
-    const Trajectory trajectory =
-        simulate<float>(std::move(stepped), {reference.level, frames_}, [&](int done) {
-          watch_();
-          return fits(begin, done);
-        });
-    if (!trajectory.sound) run.status = Run::Status::went_bad;
-    if (!trajectory.complete) return;
-    run.status = Run::Status::done;
-    run.milliseconds = trajectory.milliseconds_per_frame();
-    run.substeps = trajectory.substeps;
-    for (const Frame& frame : trajectory.frames) run.max_strain = std::max(run.max_strain, frame.max_strain);
-    run.time = errors_of(trajectory, reference.answer);
-    run.total = errors_of(trajectory, finest.answer);
+    return simulate<float>(std::move(stepped), plan, [&](int done) {
+      watch_();
+      return fits(begin, done);
+    });
   }
 
  private:
@@ -47,14 +43,71 @@ class Runner {
     constexpr int kEnoughToTell = 3;
     if (done < kEnoughToTell) return true;
     const double each = (allowance_.now() - begin) / done;
-    return each * (frames_ - done) <= allowance_.left();
+    return each * (plan_.frames - done) <= allowance_.left();
   }
 
   const SimulationDescription& description_;
-  int frames_;
+  RunPlan plan_;
   Allowance allowance_;
   const std::function<void()>& watch_;
 };
+
+void make_run(const Runner& runner, const Reference& reference, const Reference& finest, Run& run) {
+  const Trajectory trajectory = runner.make(run.candidate, reference.level);
+  if (!trajectory.sound) run.status = Run::Status::went_bad;
+  if (!trajectory.complete) return;
+  run.status = Run::Status::done;
+  run.milliseconds = trajectory.milliseconds_per_frame();
+  run.substeps = trajectory.substeps;
+  for (const Frame& frame : trajectory.frames) {
+    run.max_strain = std::max(run.max_strain, frame.max_strain);
+    run.max_compression = std::max(run.max_compression, frame.max_compression);
+  }
+  run.time = errors_of(trajectory, reference.answer);
+  run.total = errors_of(trajectory, finest.answer);
+}
+
+/// Follows a level's best runs and the scene's own: the most accurate one that takes at most half of what is
+/// left, then those that are cheaper than it, the cheapest first.
+void follow(const Study& study, const Runner& runner, LevelStudy& level) {
+  std::vector<Run*> runs;
+  for (Run& run : level.runs) {
+    if (run.status == Run::Status::done && (run.best || run.candidate.present)) runs.push_back(&run);
+  }
+  const auto seconds = [&](const Run& run) { return run.milliseconds / 1e3 * study.followed_frames; };
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run* a, const Run* b) { return a->milliseconds < b->milliseconds; });
+  Trajectory best;
+  while (!runs.empty() && !best.complete) {
+    Run& most_accurate = *runs.back();
+    runs.pop_back();
+    if (!most_accurate.best || seconds(most_accurate) > runner.allowance().left() / 2) continue;
+    best = runner.make(most_accurate.candidate, level.level);
+    if (!best.complete) continue;
+    const double own = std::max(study.judged(most_accurate.time), study.floor(level.reference));
+    const double growth = study.chaotic ? 1 : double(study.followed_frames) / study.frames;
+    most_accurate.followed = growth * own;
+    for (Run* run : runs) {
+      const Trajectory trajectory = runner.make(run->candidate, level.level);
+      if (trajectory.complete)
+        run->followed = study.judged(errors_of(trajectory, best)) + *most_accurate.followed;
+    }
+  }
+}
+
+/// Each level within its share of the plan's time for it.
+void follow_best(const SimulationDescription& description, const StudyPlan& plan,
+                 const std::function<double()>& clock, const std::function<void()>& watch, Study& study) {
+  constexpr int kKept = 120;  // frames, which bounds memory
+  const int every = (plan.followed_frames + kKept - 1) / kKept;
+  study.followed_frames = plan.followed_frames / every * every;
+  const RunPlan followed{.frames = study.followed_frames, .kept_every = every};
+  const double end = clock() + plan.follow_budget;
+  for (std::size_t i = 0; i < study.levels.size(); ++i) {
+    const double share = (end - clock()) * share_of(plan.levels, i);
+    follow(study, Runner(description, followed, {clock, clock() + share}, watch), study.levels[i]);
+  }
+}
 
 }  // namespace
 
@@ -98,7 +151,7 @@ Study study_cost(const SimulationDescription& description, const StudyPlan& plan
   }
 
   const Reference& finest = study.levels.back().reference;
-  const Runner runner(description, study.frames, {clock, begin + plan.budget}, watch);
+  const Runner runner(description, {.frames = study.frames}, {clock, begin + plan.budget}, watch);
   const std::vector<Candidate> all = candidates(plan.integrators, description.integrator);
   for (const Candidate& candidate :
        all) {  // every level's first candidates come before any level's second ones
@@ -106,7 +159,7 @@ Study study_cost(const SimulationDescription& description, const StudyPlan& plan
       Run& run = level.runs.emplace_back();
       run.candidate = candidate;
       if (level.reference.usable() && finest.usable()) {
-        runner.run(level.reference, finest, run);
+        make_run(runner, level.reference, finest, run);
       } else {
         run.status = Run::Status::no_reference;
       }
@@ -117,6 +170,7 @@ Study study_cost(const SimulationDescription& description, const StudyPlan& plan
     level.space = errors_of(level.reference.answer, finest.answer);
     mark_best(study, study.floor(level.reference), level.runs);
   }
+  if (plan.followed_frames > plan.frames) follow_best(description, plan, clock, watch, study);
   study.seconds = clock() - begin;
   return study;
 }

@@ -2,6 +2,7 @@
 /// What accuracy costs: one scene over levels, integrators and settings, each against the same converged
 /// answer.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,14 @@ struct StudyPlan {
   std::vector<int> levels;  ///< ascending, not empty
   std::vector<std::string_view> integrators;
   int frames = 120;    ///< steps of the scene; at most kMaxFrames
-  double budget = 60;  ///< wall time for everything, s: three fifths for the references, then the runs. Two
-                       ///< doublings a level and the run in hand are finished whatever they take.
+  double budget = 60;  ///< wall time for everything else, s: three fifths for the references, then the runs.
+                       ///< Two doublings a level and the run in hand are finished whatever they take.
   /// A reference is good enough when halving its steps moves it by less, in cloth sizes. The default is a
   /// tenth of what a single-precision run can be told apart by.
   double target = 1e-7;
+  int followed_frames = 0;   ///< steps over which each level's best runs and the scene's own are followed
+                             ///< besides, if more than `frames`
+  double follow_budget = 0;  ///< wall time for that, s
 };
 
 /// One candidate at one level, in single precision, as in service.
@@ -33,10 +37,14 @@ struct Run {
   Status status = Status::skipped;
   double milliseconds = 0;  ///< a frame, median of the steps alone
   int substeps = 0;         ///< a frame
-  double max_strain = 0;    ///< over all frames and springs
-  Errors time;              ///< against this level's reference: what the steps cost
-  Errors total;             ///< against the finest level's reference, at the nodes shared: steps and grid
-  bool best = false;        ///< no other run of its level is at least as fast and at least as accurate
+  double max_strain = 0;    ///< largest stretch over all frames and springs
+  double max_compression = 0;
+  Errors time;   ///< against this level's reference: what the steps cost
+  Errors total;  ///< against the finest level's reference, at the nodes shared: steps and grid
+  /// Judged error over Study::followed_frames: how far it is then from the most accurate run followed at its
+  /// level, and that one's own error, taken to grow in proportion to time. Absent if it was not followed.
+  std::optional<double> followed;
+  bool best = false;  ///< no other run of its level is at least as fast and at least as accurate
 };
 
 struct LevelStudy {
@@ -48,9 +56,10 @@ struct LevelStudy {
 
 struct Study {
   int frames = 0;
-  double time_step = 0;  ///< s
-  double seconds = 0;    ///< wall time of the whole study
-  bool chaotic = false;  ///< at some level: then errors are judged by mean_shape, else by rms_position
+  int followed_frames = 0;  ///< 0: no run was followed
+  double time_step = 0;     ///< s
+  double seconds = 0;       ///< wall time of the whole study
+  bool chaotic = false;     ///< at some level: then errors are judged by mean_shape, else by rms_position
   std::vector<LevelStudy> levels;
 
   double judged(const Errors& errors) const { return chaotic ? errors.mean_shape : errors.rms_position; }

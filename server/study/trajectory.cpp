@@ -42,6 +42,7 @@ Frame frame_of(const Simulation<Real>& simulation) {
     frame.potential_energy += report.potential_energy;
     frame.mean_strain += report.strain.mean / cloths;
     frame.max_strain = std::max(frame.max_strain, report.strain.max);
+    frame.max_compression = std::max(frame.max_compression, report.strain.max_compression);
   }
   frame.centre = simulation.centre(0);
   return frame;
@@ -97,7 +98,7 @@ Trajectory simulate(SimulationDescription description, const RunPlan& plan, cons
     for (Cloth<Real>& cloth : simulation.cloths()) disturb(cloth, plan.disturbance);
   }
   Trajectory run;
-  run.time_step = simulation.description().time_step;
+  run.time_step = plan.kept_every * simulation.description().time_step;
   run.sheets = sheets_of(simulation);
   run.frames.push_back(frame_of(simulation));
   // No number of substeps mends a start that is not finite.
@@ -113,7 +114,7 @@ Trajectory simulate(SimulationDescription description, const RunPlan& plan, cons
           return event.fault == Fault::crowded;  // not the step's doing
         });
     if (!run.sound) return run;
-    run.frames.push_back(frame_of(simulation));
+    if (frame % plan.kept_every == 0) run.frames.push_back(frame_of(simulation));
     if (!watch(frame) && frame < plan.frames) return run;
   }
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {

@@ -23,7 +23,8 @@ struct Frame {
   double kinetic_energy = 0;      ///< J, all cloths
   double potential_energy = 0;    ///< J, springs and gravity
   double mean_strain = 0;         ///< of structural springs; mean of the cloths
-  double max_strain = 0;
+  double max_strain = 0;          ///< largest stretch
+  double max_compression = 0;
   Vec3 centre{0, 0, 0};  ///< of the first cloth, m
 };
 
@@ -45,6 +46,7 @@ struct Trajectory {
 struct RunPlan {
   int level = 5;           ///< every cloth's, whatever its own limits
   int frames = 120;        ///< steps
+  int kept_every = 1;      ///< steps from one kept frame to the next; divides `frames`
   double disturbance = 0;  ///< random offset of every free node at the start, up to this share of its cloth's
                            ///< size: what rounding does to a start
 };

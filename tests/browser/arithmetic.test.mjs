@@ -1,7 +1,7 @@
 // The page's arithmetic: plain modules without a browser.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {chartColumns, choiceFor, digits, neighbourText, percent} from '../../web/cost_curve.js';
+import {chartColumns, choiceFor, digits, neighbourText, percent, spanText} from '../../web/cost_curve.js';
 import {creased} from '../../web/creased.js';
 import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, tornNormals, tornOn, triangleIndices} from '../../web/grid.js';
 import {Morph} from '../../web/morph.js';
@@ -286,6 +286,10 @@ test('the chart has times ascending, each kind in its column, and now', () => {
   assert.deepEqual(chartColumns(curve.levels[1], quality), [
     [4, 8, 10, 12, 16], [0.08, 0.009, null, null, 0.002], [null, null, null, 0.05, null], [null, null, 0.009, null, null]]);
   assert.deepEqual(chartColumns(curve.levels[2], {})[0], [16, 32]);  // an error of zero has no place
+});
+
+test('an error says over which span it was measured', () => {
+  assert.equal(spanText(10), 'over the scene’s first 10 s');
 });
 
 test('numbers for people', () => {

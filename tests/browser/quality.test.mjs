@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {digits, percent} from '../../web/cost_curve.js';
+import {digits, percent, spanText} from '../../web/cost_curve.js';
 import {openScene, startServer, until} from './harness.mjs';
 
 let server, page, witness;
@@ -24,7 +24,7 @@ const shown = () => page.evaluate(() => ({
 }));
 
 function assertAgree({quality, figures, now, dot}) {
-  assert.equal(figures, `Level ${quality.level}: ${digits(quality.ms_measured)} ms a step, error ${percent(quality.error_expected)}`);
+  assert.equal(figures, `Level ${quality.level}: ${digits(quality.ms_measured)} ms a step, error ${percent(quality.error_expected)} ${spanText(quality.span)}`);
   assert.equal(now, `${quality.integrator}, ${quality.setting}`);
   assert.deepEqual([Number(dot.ms), Number(dot.error)], [quality.ms_measured, quality.error_expected]);
 }

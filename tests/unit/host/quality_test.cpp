@@ -45,6 +45,7 @@ TEST_F(LiveQuality, NobodyAskedForCostsNothing) {
 TEST_F(LiveQuality, IsMeasuredAndThenChosen) {
   const json ok = command(protocol::Quality{0.05, std::nullopt});
   EXPECT_EQ(ok.at("op"), "ok");
+  EXPECT_EQ(ok.at("quality"), json({{"wish", {{"max_error", 0.05}}}, {"state", "measuring"}}));
   EXPECT_EQ(other.last("event", "quality").at("wish"), json({{"max_error", 0.05}}));
   EXPECT_TRUE(live.wants_study());
   EXPECT_EQ(quality(), json({{"wish", {{"max_error", 0.05}}}, {"state", "measuring"}}));
@@ -55,10 +56,17 @@ TEST_F(LiveQuality, IsMeasuredAndThenChosen) {
   EXPECT_GT(chosen.at("ms_measured"), 0.0);
   const json expected = {{"state", "chosen"}, {"integrator", "xpbd"}, {"setting", "10 substeps"},
                          {"level", 5},        {"ms_expected", 8.0},   {"error_expected", 0.01},
-                         {"space", 0.005},    {"met", true}};
+                         {"span", 10.0},      {"space", 0.005},       {"met", true}};
   for (const auto& [name, value] : expected.items()) {
     EXPECT_EQ(chosen.at(name), value) << name;
   }
+}
+
+TEST_F(LiveQuality, TheReplyTellsOverWhichSpanTheErrorWasMeasured) {
+  command(protocol::Cost{});
+  study();
+  EXPECT_EQ(command(protocol::Quality{0.05, std::nullopt}).at("quality").at("span"), 10.0);
+  EXPECT_EQ(command(protocol::Quality{0.001, std::nullopt}).at("quality").at("span"), 2.0);
 }
 
 TEST_F(LiveQuality, FollowsTheLevelThatViewersWant) {
@@ -131,6 +139,7 @@ TEST_F(LiveQuality, CostIsToldToThoseWhoAskedAndOnlyOnce) {
                                             {"setting", "10 substeps"},
                                             {"ms", 8.0},
                                             {"error", 0.01},
+                                            {"span", 10.0},
                                             {"best", true},
                                             {"own", false}}));
   EXPECT_EQ(level.at("points").at(3).at("own"), true);

@@ -62,6 +62,29 @@ TEST(QualityChoices, AreTheBestRunsFromCheapToAccurate) {
   EXPECT_EQ(level.own->milliseconds, 4);
 }
 
+// Over 60 steps the run of 2 ms is ten times as far off as over 30, that of 1 ms was not followed, and that
+// of 4 ms is known over 30 alone.
+TEST(QualityChoices, AreKnownOverTheSpanThatTheyWereFollowedFor) {
+  Study study = study_of_one_level();
+  study.time_step = 0.5;
+  study.followed_frames = 60;
+  study.levels[0].runs[2].followed = 0.1;
+  const LevelChoices level = choices_of(study).levels[0];
+  EXPECT_EQ(costs(level.front), (std::vector<double>{2, 4}));
+  EXPECT_EQ(level.front[0].error, 0.1);
+  EXPECT_EQ(level.front[0].span, 30);
+  EXPECT_EQ(level.front[1].error, 0.001);
+  EXPECT_EQ(level.front[1].span, 15);
+  EXPECT_EQ(level.all[0].span, 15);
+}
+
+TEST(QualityChoices, WhichAreNoBetterOverALongerSpanAreLeftOut) {
+  Study study = study_of_one_level();
+  study.followed_frames = 60;
+  for (const std::size_t run : {0, 1, 2}) study.levels[0].runs[run].followed = 0.02;
+  EXPECT_EQ(costs(choices_of(study).levels[0].front), std::vector<double>{1});
+}
+
 TEST(QualityChoices, OfAChaoticSceneAreJudgedByMeanShape) {
   Study study = study_of_one_level();
   study.chaotic = true;
