@@ -61,19 +61,21 @@ std::string error_text(const Error& error) {
   return dump(message);
 }
 
-std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time) {
+std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time,
+                      std::uint32_t server_ms) {
   ordered_json message{{"op", "pong"}};
   if (re) message["re"] = *re;
   message["t"] = t;
   message["f"] = frame;
   message["time"] = time;
+  message["server_ms"] = server_ms;
   return dump(message);
 }
 
 std::string welcome_text(std::string_view server_version, const Limits& limits) {
   return dump({{"op", "welcome"},
                {"protocol", kSubprotocol},
-               {"minor", 12},
+               {"minor", 13},
                {"server", "weft " + std::string(server_version)},
                {"caps", kCapabilities},
                {"limits",

@@ -181,7 +181,9 @@ std::string to_text(const Request& request);
 std::string ok_text(std::int64_t re, std::uint64_t frame,
                     const nlohmann::json& extra = nlohmann::json::object());
 std::string error_text(const Error& error);
-std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time);
+/// `server_ms` is the server's clock as frames have it.
+std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time,
+                      std::uint32_t server_ms);
 /// `server_version` alone, as in "0.1.0".
 std::string welcome_text(std::string_view server_version, const Limits& limits);
 std::string event_text(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);

@@ -289,7 +289,7 @@ function start(settings) {
     curve: (message) => cost.setCurve(message),
     notice: (message) => {
       if (message.code === 'real_time') tell('slow', null);
-      else if (message.code === 'recovered' || message.code === 'crowded') hud.toast(message.message, 'plain');
+      else if (['recovered', 'crowded', 'too_costly'].includes(message.code)) hud.toast(message.message, 'plain');
       else tell(message.code, message.message);
     },
     round_trip: (message) => hud.showRoundTrip(message.ms),

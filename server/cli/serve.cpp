@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 struct ServeOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
+  protocol::Limits limits;
   net::ServerOptions server;
   Threads threads;
   bool quiet = false;
@@ -68,7 +69,7 @@ int serve(ServeOptions options) {
   if (options.quiet) spdlog::set_level(spdlog::level::warn);
 
   const ThreadLimit limit = options.threads.limit();
-  host::Host host;
+  host::Host host(options.limits);
   if (!load_scenes(options, host)) return kFailed;
   if (options.server.web.empty()) options.server.web = find_page();
   options.server.version = WEFT_VERSION;
@@ -102,6 +103,9 @@ void add_serve(CLI::App& app, int& exit_code) {
                    "Origin of pages that may connect besides this server's own and this machine's, as "
                    "https://example.org; * allows all; may be given several times")
       ->allow_extra_args(false);
+  command->add_option("--viewers", options->limits.viewers, "Viewers that a scene may have at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, static_cast<int>(options->server.max_connections)));
   command
       ->add_option("--set", options->overrides,
                    "POINTER=VALUE changes a value of every scene, as /wind/speed=8")

@@ -5,6 +5,7 @@
 #include "cloth/colliders.h"
 #include "cloth/effects/grab.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/interrupt.h"
 #include "cloth/settle.h"
 #include "cloth/sleep.h"
 #include "cloth/step_guard.h"
@@ -130,6 +131,14 @@ class Cloth {
   /// with push_balls(). Several cloths may do it at the same time, each with its share of a ball that they
   /// all touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
+  /// Steps from now on may take at most so much work (interrupt.h); one that would is not made: the cloth
+  /// stands still as if no way of stepping it helped. WorkLimit::kNone unless set.
+  void set_most_work(double most) { most_work_ = most; }
+  /// That the last step took; 0 if it was left out.
+  double work() const { return work_; }
+  bool cost_too_much() const { return work_ > most_work_; }
+  /// What gave trouble is gone: if it stands still it is tried again in the next step.
+  void try_again() { guard_.forgive(); }
   /// Its nodes that touch solids; none if nothing has come near any.
   std::span<const Touch> touches() const {
     return contact_ ? std::span<const Touch>(contact_->touches()) : std::span<const Touch>();
@@ -160,6 +169,8 @@ class Cloth {
   void set_pins();
   /// Of the cloth as it is, beside moving pins and layers.
   Forces<Real> forces(const EffectContext& context);
+  /// advance(), until a state is good.
+  AdvanceReport advance_soundly(const std::vector<Solid>& solids, const Air& air, double time, double dt);
   AdvanceReport attempt(const Air& air, double time, double dt);
   /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
   const VectorField<float>* node_air(const Air& air, double time, double dt);
@@ -199,6 +210,7 @@ class Cloth {
   std::unique_ptr<Integrator<Real>> integrator_;        ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
+  double most_work_ = WorkLimit::kNone, work_ = 0;
   // As seen from the cloth's place:
   std::vector<Solid> met_;     ///< as they were when the step began
   std::vector<Solid> solids_;  ///< as the cloth moves them in the step

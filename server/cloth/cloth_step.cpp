@@ -29,8 +29,14 @@ template <class Real>
 void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time) {
   if (unsettled_ == Unsettled::no) return;
   settled_ = std::exchange(unsettled_, Unsettled::no);
-  const bool moved = settle(particles_, settled_, forces({.cloth = &description_, .time = time}),
-                            solids.empty() ? nullptr : &contact(), seen(solids), kLongestRelaxation, held_);
+  bool moved = false;
+  try {
+    const WorkLimit limit(most_work_);
+    moved = settle(particles_, settled_, forces({.cloth = &description_, .time = time}),
+                   solids.empty() ? nullptr : &contact(), seen(solids), kLongestRelaxation, held_);
+  } catch (const TooMuchWork&) {
+    guard_.put_back(particles_);
+  }
   // Springs that expand against a pin lift the sheet: at one pin a merge gave 2 m of cloth 0.15 J of height.
   if (moved && settled_ == Unsettled::by_level)
     take_from_motion(particles_, std::max(0.0, elastic_energy() + energy_of_nodes() - had_));
@@ -38,14 +44,31 @@ void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time) {
 
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
-  using Verdict = typename StepGuard<Real>::Verdict;
   if (!asleep() && follow(particles_)) guard_.amend(particles_);
   solids_ = met_ = seen(solids);  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();
   if (gas_ && gas_->fills(time)) wake();
+  work_ = 0;
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
+  const WorkLimit limit(most_work_);
+  AdvanceReport report;
+  try {
+    report = advance_soundly(solids, air, time, dt);
+  } catch (const TooMuchWork&) {
+    guard_.give_up(particles_);
+    forget_attempt();
+    solids_ = met_;
+  }
+  work_ = limit.done();
+  return report;
+}
+
+template <class Real>
+AdvanceReport Cloth<Real>::advance_soundly(const std::vector<Solid>& solids, const Air& air, double time,
+                                           double dt) {
+  using Verdict = typename StepGuard<Real>::Verdict;
   for (;;) {
     settle_down(solids, time);
     const Rung rung = guard_.rung();
@@ -153,6 +176,7 @@ template bool Cloth<float>::unsettled(const std::vector<Solid>&);
 template void Cloth<float>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<float> Cloth<float>::forces(const EffectContext&);
+template AdvanceReport Cloth<float>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
 template AdvanceReport Cloth<float>::attempt(const Air&, double, double);
 template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
 template void Cloth<float>::forget_attempt();
@@ -165,6 +189,7 @@ template bool Cloth<double>::unsettled(const std::vector<Solid>&);
 template void Cloth<double>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<double> Cloth<double>::forces(const EffectContext&);
+template AdvanceReport Cloth<double>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
 template AdvanceReport Cloth<double>::attempt(const Air&, double, double);
 template const VectorField<float>* Cloth<double>::node_air(const Air&, double, double);
 template void Cloth<double>::forget_attempt();

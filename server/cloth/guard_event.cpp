@@ -24,6 +24,8 @@ std::string what_was_wrong(const GuardEvent& event) {
       return "a strain of " + number(event.value) + limit;
     case Fault::unsolved:
       return "no solution";
+    case Fault::too_costly:
+      return "more work than a step may take";
     case Fault::crowded:
       return "more contacts in one place than are held";
     case Fault::none:
@@ -56,6 +58,8 @@ std::string describe(const GuardEvent& event, const std::string& cloth) {
     case GuardEvent::Action::redone:
       return cloth + gave + ": made again " + name_of(event.rung);
     case GuardEvent::Action::frozen:
+      if (event.fault == Fault::too_costly)
+        return cloth + gave + ": it stands still and is tried again from time to time";
       return cloth + gave + ", smaller steps too: it stands still and is tried again from time to time";
     case GuardEvent::Action::thawed:
       return cloth + ": moves again from step " + std::to_string(event.step) + " on, " + name_of(event.rung);

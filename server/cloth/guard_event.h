@@ -13,6 +13,7 @@ enum class Fault {
   too_fast,       ///< a node is faster than StepGuard::kMostSpeed
   too_stretched,  ///< a structural spring is strained beyond StepGuard::kMostStrain
   unsolved,       ///< the integrator itself says that it found no next state
+  too_costly,     ///< the step would take more work than it may (interrupt.h)
   crowded,        ///< more cloth lies in one place than is kept apart
 };
 

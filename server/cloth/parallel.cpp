@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "cloth/interrupt.h"
+
 #if defined(WEFT_THREAD_SANITIZER)
 #include <sanitizer/tsan_interface.h>
 
@@ -69,11 +71,13 @@ void parallel_call(int count, void (*task)(const void* work, int i), const void*
   tbb::task_group_context context(
       tbb::task_group_context::isolated,
       tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  const std::stop_token* stop = Interruptible::current();
   const auto run = [&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& range) {
           order.task_begins();
+          const Interruptible interruptible(stop);
           for (int i = range.begin(); i < range.end(); ++i) task(work, i);
           order.task_ends();
         },

@@ -33,7 +33,7 @@ void call_alone(const std::function<void()>& work);
 void parallel_call(int count, void (*task)(const void* work, int i), const void* work);
 
 /// Calls work(i) once for every i of [0, count), on the calling thread and any others that are free, and
-/// returns when all is done. The caller's rounding and handling of subnormal numbers hold for all of them.
+/// returns when all is done. The caller's rounding, subnormal numbers and interrupt.h hold for all of them.
 /// One of the exceptions thrown, if any, goes on to the caller. May be called from within work.
 template <class Work>
 void parallel_for(int count, const Work& work) {

@@ -4,6 +4,7 @@
 
 #include "cloth/clock.h"
 #include "cloth/diagnostics.h"
+#include "cloth/interrupt.h"
 #include "cloth/parallel.h"
 #include "cloth/step_parts.h"
 
@@ -169,6 +170,7 @@ void Simulation<Real>::step() {
 
 template <class Real>
 void Simulation<Real>::step_part(double time, double dt, int parts_left) {
+  check_interrupt(0);
   colliders_.begin_step(time, dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>(),
                         parts_left);
   meet_bodies(dt);

@@ -115,7 +115,8 @@ class Simulation {
   /// to an obstacle that it has not stand still.
   void take_cloths(const Simulation& other);
 
-  /// One fixed step of description().time_step seconds.
+  /// One fixed step of description().time_step seconds. Throws Interrupted (interrupt.h) if it is
+  /// interrupted.
   void step();
   /// Back to the description's start, at the description's initial levels.
   void reset();

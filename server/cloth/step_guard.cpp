@@ -91,6 +91,16 @@ auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& rep
 }
 
 template <class Real>
+void StepGuard<Real>::give_up(Particles<Real>& particles) {
+  relapse_ = good_steps_ < kHold;
+  good_steps_ = 0;
+  limits_ = {};
+  trouble_ = {.fault = Fault::too_costly};
+  freeze();
+  restore(particles);
+}
+
+template <class Real>
 void StepGuard<Real>::amend(Particles<Real>& particles) {
   const Finding finding = look_at(particles);
   if (finding.fault == Fault::none) {

@@ -59,6 +59,16 @@ class StepGuard {
   /// are put back to the last good state.
   void repair(Particles<Real>& particles);
 
+  /// The particles are at the last good state again.
+  void put_back(Particles<Real>& particles) const { restore(particles); }
+  /// The step in hand would take too much work: as if nothing had helped, the cloth stands still.
+  void give_up(Particles<Real>& particles);
+  /// What gave trouble is gone: it is forgotten, and a frozen cloth is tried at once.
+  void forgive() {
+    freeze_left_ = 0;
+    good_steps_ = kHold;
+  }
+
   /// False if the cloth has never been in a good state.
   bool sound() const { return sound_; }
   /// Largest speed in the last good state, m/s.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/server_clock.h"
+
 namespace weft::host {
 
 using nlohmann::json;
@@ -11,7 +13,8 @@ using protocol::Request;
 Connection::Connection(Host& host, SceneRunner& scene, std::string_view server_version)
     : host_(host),
       scene_(&scene),
-      rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()) {
+      rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()),
+      excess_(host.limits().messages_per_second / 2, std::chrono::steady_clock::now()) {
   send(protocol::welcome_text(server_version, host.limits()));
   visit_ = viewer_->enter();
   scene_->join(viewer_, visit_);
@@ -22,30 +25,31 @@ Connection::~Connection() {
   scene_->give_back();
 }
 
-bool Connection::receive(std::string_view text, TimePoint now) {
+Connection::Pace Connection::receive(std::string_view text, TimePoint now) {
   auto parsed = protocol::parse_request(text, host_.limits());
   const Request* request = std::get_if<Request>(&parsed);
   // An acknowledgement of a frame that was sent is as frequent as the frames are; losing it would stop them.
   if (const auto* ack = request ? std::get_if<protocol::Ack>(&request->command) : nullptr) {
     if (viewer_->acknowledge(ack->frame)) {
       ok(*request, json::object());
-      return true;
+      return Pace::go_on;
     }
   }
   if (!rate_.allow(now)) {
+    if (!excess_.allow(now)) return Pace::end;
     protocol::Error error{std::nullopt, "rate", "",
                           "more than " + std::to_string(host_.limits().messages_per_second) +
                               " messages in a second; this one was dropped"};
     error.re = request ? request->id : std::get<protocol::Error>(parsed).re;
     send(protocol::error_text(error));
-    return false;
+    return Pace::slow_down;
   }
   if (request) {
     std::visit([&](const auto& command) { answer(*request, command); }, request->command);
   } else {
     send(protocol::error_text(std::get<protocol::Error>(parsed)));
   }
-  return true;
+  return Pace::go_on;
 }
 
 void Connection::answer(const Request& request, const protocol::Hello& hello) {
@@ -83,16 +87,26 @@ void Connection::answer(const Request& request, const protocol::SceneJoin& join)
 /// One that acknowledges nothing: harmless, for example of the scene before.
 void Connection::answer(const Request& request, const protocol::Ack&) { ok(request, json::object()); }
 
+/// After the replies to all commands before it: at once if there are none to come, so that it measures the
+/// way and not the step in hand.
 void Connection::answer(const Request& request, const protocol::Ping& ping) {
-  send(protocol::pong_text(request.id, ping.t, scene_->frame(), scene_->time()));
+  const auto pong = [id = request.id, t = ping.t](const SceneRunner& scene) {
+    return make_text(protocol::pong_text(id, t, scene.frame(), scene.time(), server_ms()));
+  };
+  if (viewer_->all_answered()) return viewer_->send(pong(*scene_));
+  const auto later = [pong, scene = scene_, viewer = viewer_] { viewer->send(pong(*scene)); };
+  if (!scene_->submit(viewer_, visit_, later)) too_many_wait(request);
 }
 
 template <class Command>
 void Connection::answer(const Request& request, const Command& command) {
-  if (!scene_->submit(viewer_, visit_, {request.id, SceneCommand(command)})) {
-    refuse(request, "limit", "",
-           std::to_string(SceneRunner::kMaxWaiting) + " commands wait for the scene's next step already");
-  }
+  if (!scene_->submit(viewer_, visit_, SceneRequest{request.id, SceneCommand(command)}))
+    too_many_wait(request);
+}
+
+void Connection::too_many_wait(const Request& request) {
+  refuse(request, "limit", "",
+         std::to_string(SceneRunner::kMaxWaiting) + " commands wait for the scene's next step already");
 }
 
 void Connection::ok(const Request& request, const json& extra) {

@@ -26,9 +26,14 @@ class Connection {
   const std::shared_ptr<Viewer>& shared_viewer() const { return viewer_; }
   const SceneRunner& scene() const { return *scene_; }
 
-  /// One text message of at most Limits::message_bytes. False if it came too fast and was dropped: read the
-  /// next one later.
-  bool receive(std::string_view text, TimePoint now);
+  /// What is to be done after a message.
+  enum class Pace {
+    go_on,      ///< read the next one
+    slow_down,  ///< it came too fast and was dropped: read the next one later
+    end         ///< too many came too fast: close the connection
+  };
+  /// One text message of at most Limits::message_bytes.
+  Pace receive(std::string_view text, TimePoint now);
 
  private:
   void answer(const protocol::Request& request, const protocol::Hello& hello);
@@ -40,13 +45,15 @@ class Connection {
   void answer(const protocol::Request& request, const Command& command);
   void ok(const protocol::Request& request, const nlohmann::json& extra);
   void send(std::string text);
+  void too_many_wait(const protocol::Request& request);
   void refuse(const protocol::Request& request, const char* code, const char* path, std::string message);
 
   Host& host_;
   SceneRunner* scene_;
   std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
   std::uint64_t visit_ = 0;
-  RateLimiter rate_;
+  RateLimiter rate_;    ///< of messages
+  RateLimiter excess_;  ///< of those dropped: half as many may be
 };
 
 }  // namespace weft::host

@@ -6,6 +6,11 @@
 
 namespace weft::host {
 
+Host::~Host() {
+  // All of them first: each then ends while others are waited for.
+  for (const auto& scene : scenes_) scene->request_stop();
+}
+
 void Host::add(scene::Scene scene) {
   if (find(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
   scenes_.push_back(std::make_unique<SceneRunner>(std::move(scene), limits_));

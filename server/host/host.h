@@ -12,6 +12,10 @@ namespace weft::host {
 class Host {
  public:
   explicit Host(const protocol::Limits& limits = {}) : limits_(limits) {}
+  /// Interrupts all scenes' steps, and waits for their threads.
+  ~Host();
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
 
   /// Throws std::invalid_argument if there is a scene of that name already.
   void add(scene::Scene scene);

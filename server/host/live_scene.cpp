@@ -176,8 +176,10 @@ void LiveScene::step() {
   for (Seat& seat : seats_) look(seat, 1);
   request_levels();
   recompose(std::exchange(recompose_, Recompose::nothing));
+  limit_work();
   simulation_.step();
   tell_guard_events();
+  take_away_costly();
   const auto& cloths = simulation_.cloths();
   const bool as_asked = std::all_of(cloths.begin(), cloths.end(),
                                     [](const Cloth<float>& cloth) { return cloth.steps_as_asked(); });
@@ -234,8 +236,7 @@ void LiveScene::remove_lost_balls() {
   }
   for (const BallId id : lost) {
     remove_ball(id);
-    tell_event("ball.remove", simulation_.step_count(),
-               {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
+    balls_changed("ball.remove", simulation_.step_count(), id);
   }
   const auto& obstacles = simulation_.colliders().obstacles();
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -256,10 +257,19 @@ void LiveScene::find_bounds() {
 
 // --- What viewers are sent ---
 
+bool LiveScene::frame_wanted() const {
+  return frame_due_ ||
+         std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.wants_frame; });
+}
+
+bool LiveScene::has_news() const { return frame_wanted() || !events_.empty(); }
+
+void LiveScene::tell_events() {
+  events_.flush([this](std::string text, std::string_view key) { tell_all(std::move(text), key); });
+}
+
 void LiveScene::publish(std::uint32_t server_ms) {
-  const bool wanted =
-      std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.wants_frame; });
-  if (!frame_due_ && !wanted) return;
+  if (!frame_wanted()) return;
   if (state_newer_) {
     protocol::FrameStamp stamp;
     stamp.frame = static_cast<std::uint32_t>(simulation_.step_count());
@@ -280,7 +290,7 @@ void LiveScene::publish(std::uint32_t server_ms) {
 
 void LiveScene::send_stats(double rate) {
   StatsState state;
-  state.rate = wants_step() ? rate : 0.0;
+  state.rate = rate;
   state.viewers = seats_.size();
   for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
     state.substeps.push_back(simulation_.report(i).substeps);
@@ -290,14 +300,16 @@ void LiveScene::send_stats(double rate) {
   state.quality = quality_.stats_json();
   state.guard = guard_.stats_json();
   for (const Seat& seat : seats_)
-    seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)));
+    seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)), "stats");
 }
 
 void LiveScene::set_paused(bool paused) {
   if (paused_ == paused) return;
   paused_ = paused;
   frame_due_ = true;  // its flag tells
-  tell_event(paused ? "pause" : "resume", simulation_.step_count(), {{"paused", paused}});
+  events_.add(paused ? "pause" : "resume", "", simulation_.step_count(), [paused] {
+    return json{{"paused", paused}};
+  });
 }
 
 void LiveScene::state_changed() {
@@ -305,23 +317,22 @@ void LiveScene::state_changed() {
   frame_due_ = true;
 }
 
-void LiveScene::balls_changed(std::string_view kind, BallId id) {
+void LiveScene::balls_changed(const char* kind, std::uint64_t frame, BallId id) {
   if (!wants_step()) state_changed();
-  tell_event(kind, takes_effect_, {{"ball", id}, {"balls", balls_json(simulation_.colliders())}});
+  events_.add(kind, "", frame, [this, id] {
+    return json{{"ball", id}, {"balls", balls_json(simulation_.colliders())}};
+  });
 }
 
-void LiveScene::pins_changed(std::string_view kind, std::size_t cloth) {
-  const ClothDescription& description = simulation_.cloths()[cloth].description();
-  tell_event(kind, takes_effect_, {{"cloth", cloth}, {"pins", pins_json(description)}});
+void LiveScene::pins_changed(const char* kind, std::size_t cloth) {
+  events_.add(kind, std::to_string(cloth), takes_effect_, [this, cloth] {
+    return json{{"cloth", cloth}, {"pins", pins_json(simulation_.cloths()[cloth].description())}};
+  });
 }
 
-void LiveScene::tell_all(std::string text) {
+void LiveScene::tell_all(std::string text, std::string_view key) {
   const Text message = make_text(std::move(text));
-  for (const Seat& seat : seats_) seat.viewer->send(seat.visit, message);
-}
-
-void LiveScene::tell_event(std::string_view kind, std::uint64_t frame, const json& what) {
-  tell_all(protocol::event_text(kind, frame, what));
+  for (const Seat& seat : seats_) seat.viewer->send(seat.visit, message, key);
 }
 
 void LiveScene::tell_curve() {

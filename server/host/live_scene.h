@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloth/simulation.h"
+#include "host/event_queue.h"
 #include "host/frame_encoder.h"
 #include "host/guard_log.h"
 #include "host/scene_quality.h"
@@ -68,9 +69,15 @@ class LiveScene {
   void take_study(StudyOutcome outcome);
   /// Whether the clock runs behind; viewers are told when it changes.
   void set_slow(bool slow);
+  /// Tells viewers what has changed since the last call, of one thing once (EventQueue).
+  void tell_events();
   /// Sends each viewer that needs one the newest frame at its levels. `server_ms` is the server's clock.
   void publish(std::uint32_t server_ms);
-  /// Sends each viewer its `stats`; `rate` is StepClock's.
+  /// publish() sends a frame to all.
+  bool frame_due() const { return frame_due_; }
+  /// There is something to be told or shown.
+  bool has_news() const;
+  /// Sends each viewer its `stats`; `rate` is of simulated to real time, 0 while nothing is stepped.
   void send_stats(double rate);
 
   const Simulation<float>& simulation() const { return simulation_; }
@@ -113,6 +120,25 @@ class LiveScene {
   Outcome carry_out(const protocol::Reset& reset, Seat& seat);
   Outcome carry_out(const protocol::Step& step, Seat& seat);
 
+  /// A ball larger than the scene's largest cloth is none to play with, but swallows it.
+  std::optional<protocol::Error> too_large(double radius) const;
+  /// What the viewer put before was taken away not long ago.
+  std::optional<protocol::Error> may_not_put(const Seat& seat) const;
+  /// A ball, or an obstacle, that a viewer put somewhere or set in motion.
+  struct PutBody {
+    ColliderId id = 0;
+    const Viewer* viewer = nullptr;  ///< who did, and its visit
+    std::uint64_t visit = 0;
+    std::uint64_t step = 0;  ///< when
+    Pose before;             ///< where an obstacle was before anybody did
+  };
+  /// Call it before the body is put where it goes.
+  void has_put(ColliderId body, const Seat& seat);
+  /// Before a step: what it may take, if viewers' bodies are there.
+  void limit_work();
+  /// After it: takes away what made it take more.
+  void take_away_costly();
+  void take_away(const PutBody& body);
   std::optional<protocol::Error> missing_cloth(std::uint32_t cloth) const;
   /// The scene is held at so many points as it may be.
   std::optional<protocol::Error> too_many_grabs() const;
@@ -145,11 +171,12 @@ class LiveScene {
   void find_range();
   void remove_lost_balls();
   void state_changed();
-  void balls_changed(std::string_view kind, BallId id);
-  void pins_changed(std::string_view kind, std::size_t cloth);
-  void tell_all(std::string text);
-  void tell_event(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
-  void tell_curve();  ///< to those who asked, once it is known
+  void balls_changed(const char* kind, std::uint64_t frame, BallId id);
+  void pins_changed(const char* kind, std::size_t cloth);
+  void wind_changed();
+  void tell_all(std::string text, std::string_view key = {});
+  void tell_curve();          ///< to those who asked, once it is known
+  bool frame_wanted() const;  ///< by all, or by one
   std::uint16_t flags() const;
 
   scene::Scene scene_;
@@ -159,7 +186,10 @@ class LiveScene {
   SceneQuality quality_;
   GuardLog guard_;
   std::vector<std::string> guard_texts_;
+  EventQueue events_;
   std::vector<Seat> seats_;
+  std::vector<PutBody> put_;
+  std::vector<double> usual_work_;            ///< by cloth: of its last step without those, as if at level 0
   std::vector<int> finest_sendable_;          ///< by cloth
   std::vector<BoundingSphere> bounds_;        ///< of the cloths; without a radius where nobody asks for it
   std::vector<EffectDescription> effects_;    ///< the scene's, with the parameters that they have now

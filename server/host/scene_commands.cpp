@@ -66,8 +66,9 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothTune& tuning, Seat&
   if (const auto error = tune(tuning, effects_, material)) return *error;
   if (material == before) return json::object();
   composition_changed(Recompose::materials);
-  tell_event("cloth.tune", takes_effect_,
-             {{"cloth", tuning.cloth}, {"material", material_json(material, effects_)}});
+  events_.add("cloth.tune", std::to_string(tuning.cloth), takes_effect_, [this, cloth = tuning.cloth] {
+    return json{{"cloth", cloth}, {"material", material_json(materials_[cloth], effects_)}};
+  });
   return json::object();
 }
 
@@ -88,8 +89,9 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
   }
   effects_off_ = std::move(off);
   composition_changed(Recompose::effects);
-  tell_event("effect", takes_effect_,
-             {{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}});
+  events_.add("effect", "", takes_effect_, [this, set] {
+    return json{{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}};
+  });
   return json::object();
 }
 
@@ -97,11 +99,16 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat
   if (const auto missing = missing_effect(tuning.effect)) return *missing;
   const json before = parameters_json(effects_);
   if (const auto error = tune(tuning, effects_)) return *error;
-  const json after = parameters_json(effects_);
-  if (after == before) return json::object();
+  if (parameters_json(effects_) == before) return json::object();
   if (!is_off(tuning.effect)) composition_changed(Recompose::effects);
-  tell_event("tune", takes_effect_, {{"effect", tuning.effect}, {"parameters", after[tuning.effect]}});
+  events_.add("tune", tuning.effect, takes_effect_, [this, effect = tuning.effect] {
+    return json{{"effect", effect}, {"parameters", parameters_json(effects_)[effect]}};
+  });
   return json::object();
+}
+
+void LiveScene::wind_changed() {
+  events_.add("wind", "", takes_effect_, [this] { return json{{"wind", wind_json(simulation_.wind())}}; });
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
@@ -116,7 +123,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (wind.time_scale) changed.gusts.time_scale = *wind.time_scale;
   if (wind.length_scale) changed.turbulence.length_scale = *wind.length_scale;
   simulation_.set_wind(changed);
-  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  wind_changed();
   return json::object();
 }
 
@@ -126,14 +133,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindZoneSet& set, Seat&)
                    "/zone is " + std::to_string(set.zone) + "; the wind has no such zone");
   }
   simulation_.set_wind_zone(set.zone, to_vec3(set.velocity));
-  tell_event("wind", takes_effect_, {{"wind", wind_json(simulation_.wind())}});
+  wind_changed();
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Quality& quality, Seat&) {
   quality_.wish({quality.max_error, quality.max_ms});
   request_levels();
-  tell_event("quality", takes_effect_, {{"wish", quality_.wish_json()}});
+  events_.add("quality", "", takes_effect_, [this] { return json{{"wish", quality_.wish_json()}}; });
   const json quality_now = quality_.stats_json();
   return quality_now.is_null() ? json::object() : json({{"quality", quality_now}});
 }
@@ -179,7 +186,11 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i] = scene_.simulation.cloths[i].material;
   if (composition() != before) study_outdated();
   recompose_ = Recompose::nothing;  // it is as its description has it
-  for (Seat& seat : seats_) seat.grabs.clear();
+  for (Seat& seat : seats_) {
+    seat.grabs.clear();
+    seat.puts_again_at = 0;
+  }
+  put_.clear();
   quality_.restarted();
   guard_ = {};
   waiting_steps_ = 0;
@@ -192,18 +203,19 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
     look(seat);
   }
   state_changed();
-  tell_event("reset", 0,
-             {{"epoch", epoch_},
-              {"time", 0.0},
-              {"paused", paused_},
-              {"wind", wind_json(simulation_.wind())},
-              {"balls", balls_json(simulation_.colliders())},
-              {"parameters", parameters_json(effects_)},
-              {"materials", materials_json(materials_, effects_)},
-              {"frictions", frictions_json(simulation_.colliders())},
-              {"pins", pins_json(simulation_.cloths())}});
+  events_.add("reset", "", 0, [this] {
+    return json{{"epoch", epoch_},
+                {"time", 0.0},
+                {"paused", paused_},
+                {"wind", wind_json(simulation_.wind())},
+                {"balls", balls_json(simulation_.colliders())},
+                {"parameters", parameters_json(effects_)},
+                {"materials", materials_json(materials_, effects_)},
+                {"frictions", frictions_json(simulation_.colliders())},
+                {"pins", pins_json(simulation_.cloths())}};
+  });
   request_levels();
-  return json::object();
+  return json{{"epoch", epoch_}};
 }
 
 }  // namespace weft::host

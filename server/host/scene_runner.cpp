@@ -6,19 +6,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "cloth/interrupt.h"
 #include "host/arithmetic.h"
 #include "host/scene_messages.h"
+#include "host/server_clock.h"
 
 namespace weft::host {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kStatsPeriod = std::chrono::milliseconds(500);
-
-std::uint32_t server_ms() {
-  const auto now = Clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
-}
+/// Between what is published without a step in real time.
+constexpr auto kPublishPeriod = std::chrono::milliseconds(16);
 
 }  // namespace
 
@@ -44,11 +43,12 @@ bool SceneRunner::reserve() {
 }
 
 bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
-                         const SceneRequest& request) {
+                         std::variant<SceneRequest, Call> what) {
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() >= kMaxWaiting) return false;
-    waiting_.push_back({viewer, visit, request});
+    viewer->command_given();
+    std::visit([&](auto& each) { waiting_.push_back({viewer, visit, std::move(each)}); }, what);
   }
   work_.notify_one();
   return true;
@@ -65,16 +65,20 @@ void SceneRunner::post(Task task) {
 void SceneRunner::run(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), ("weft " + name_).substr(0, 15).c_str());
   flush_subnormals();
-  while (!stop.stop_requested()) {
-    for (Task& task : wait_for_work(stop)) carry_out(task);
-    study_if_wanted();
-    step_if_due();
-    // Before the frame goes out: who has seen it must not be told an older step.
-    frame_ = live_.simulation().step_count();
-    live_.publish(server_ms());
-    send_stats_if_due();
-    encodes_ = live_.encoder().encodes();
+  const Interruptible interruptible(&stop);
+  try {
+    while (!stop.stop_requested()) {
+      for (Task& task : wait_for_work(stop)) carry_out(task);
+      study_if_wanted();
+      const bool stepped = step_if_due();
+      // Before the frame goes out: who has seen it must not be told an older step.
+      frame_ = live_.simulation().step_count();
+      publish_if_due(stepped);
+      send_stats_if_due();
+    }
+  } catch (const Interrupted&) {  // the scene ends in the midst of a step
   }
+  study_.reset();
 }
 
 std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token& stop) {
@@ -83,15 +87,23 @@ std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token&
   if (live_.empty()) {
     work_.wait(lock, stop, has_work);
   } else {
-    const auto until = live_.wants_step() && running_ ? std::min(clock_.next(), stats_due_) : stats_due_;
-    work_.wait_until(lock, stop, live_.wants_step() && !running_ ? Clock::now() : until, has_work);
+    work_.wait_until(lock, stop, next_work(), has_work);
   }
   return std::exchange(waiting_, {});
+}
+
+StepClock::TimePoint SceneRunner::next_work() const {
+  if (live_.wants_step()) return running_ ? std::min(clock_.next(), stats_due_) : Clock::now();
+  return live_.has_news() ? std::min(publish_due_, stats_due_) : stats_due_;
 }
 
 void SceneRunner::carry_out(Task& task) {
   if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
     live_.apply(task.viewer, task.visit, *request);
+    task.viewer->command_answered();
+  } else if (const auto* call = std::get_if<Call>(&task.what)) {
+    (*call)();
+    task.viewer->command_answered();
   } else if (auto* studied = std::get_if<Studied>(&task.what)) {
     if (studied->number == live_.study_number()) live_.take_study(std::move(studied->outcome));
   } else if (std::holds_alternative<Join>(task.what)) {
@@ -102,38 +114,61 @@ void SceneRunner::carry_out(Task& task) {
   }
 }
 
-void SceneRunner::step_if_due() {
-  if (!live_.wants_step()) {
-    running_ = false;
-    return;
-  }
-  if (!running_) clock_.start(Clock::now());
-  running_ = true;
-  if (Clock::now() < clock_.next()) return;
+bool SceneRunner::step_if_due() {
+  const bool in_real_time = live_.wants_step() && !live_.paused();
+  if (in_real_time && !running_) clock_.start(Clock::now());
+  running_ = in_real_time;
+  if (!live_.wants_step() || (running_ && Clock::now() < clock_.next())) return false;
   live_.step();
+  for (const std::string& text : live_.take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
+  if (!running_) {
+    ++steps_made_;
+    return true;
+  }
   clock_.stepped(Clock::now());
   if (clock_.slow() != live_.slow()) {
     spdlog::warn("scene {}: clock {}", name_,
                  clock_.slow() ? "runs behind real time" : "is in real time again");
     live_.set_slow(clock_.slow());
   }
-  for (const std::string& text : live_.take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
+  return true;
+}
+
+void SceneRunner::publish_if_due(bool stepped) {
+  const auto now = Clock::now();
+  // A step in real time is shown at once, and so is the last of those asked for. What changes more often, by
+  // commands or steps asked for, is shown so many times a second.
+  const bool shown_at_once = stepped && (running_ || !live_.wants_step());
+  if (!shown_at_once && now < publish_due_) return;
+  if (live_.frame_due() || !running_) live_.tell_events();
+  live_.publish(server_ms());
+  encodes_ = live_.encoder().encodes();
+  publish_due_ = now + kPublishPeriod;
 }
 
 void SceneRunner::study_if_wanted() {
   const std::uint64_t number = live_.study_number();
-  if (study_ && study_number_ != number) study_.reset();
-  if (study_ || !live_.wants_study()) return;
+  if (study_number_ && *study_number_ != number) {
+    study_->give_up();
+    study_number_.reset();
+  }
+  if (study_number_ || !live_.wants_study()) return;
+  if (!study_) {
+    study_.emplace([this](std::uint64_t of, StudyOutcome outcome) {
+      post({nullptr, 0, Studied{of, std::move(outcome)}});
+    });
+  }
   study_number_ = number;
-  study_.emplace(live_.studied(), [this, number](StudyOutcome outcome) {
-    post({nullptr, 0, Studied{number, std::move(outcome)}});
-  });
+  study_->begin(number, live_.studied());
 }
 
 void SceneRunner::send_stats_if_due() {
   const auto now = Clock::now();
   if (live_.empty() || now < stats_due_) return;
-  live_.send_stats(clock_.rate());
+  const StepClock::Seconds since = now - stats_sent_;
+  const double made = static_cast<double>(std::exchange(steps_made_, 0)) * time_step_ / since.count();
+  live_.send_stats(running_ ? clock_.rate() : made);
+  stats_sent_ = now;
   stats_due_ = std::max(stats_due_ + kStatsPeriod, now);
 }
 

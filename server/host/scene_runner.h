@@ -2,6 +2,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,14 +18,16 @@
 
 namespace weft::host {
 
-/// Runs one scene on a thread of its own, in real time. Every method may be called from any thread and
-/// returns at once: what is asked waits for the next step boundary. With no viewers the scene sleeps.
+/// Runs one scene on a thread of its own: in real time, and while it is paused the steps asked for as fast as
+/// they go. Every method may be called from any thread and returns at once: what is asked waits for the next
+/// step boundary. With no viewers the scene sleeps.
 class SceneRunner {
  public:
   /// Requests that may wait for the step boundary.
   static constexpr std::size_t kMaxWaiting = 1024;
 
   SceneRunner(scene::Scene scene, const protocol::Limits& limits);
+  /// Interrupts the step in hand, and waits for the thread.
   ~SceneRunner();
   SceneRunner(const SceneRunner&) = delete;
   SceneRunner& operator=(const SceneRunner&) = delete;
@@ -45,6 +48,9 @@ class SceneRunner {
   /// are.
   std::uint64_t encodes() const { return encodes_; }
 
+  /// The thread ends soon, within a step. Nothing is stepped or sent from then on.
+  void request_stop() { thread_.request_stop(); }
+
   /// Takes one of the scene's places for viewers; false if all are taken.
   bool reserve();
   /// Gives a place back.
@@ -55,8 +61,11 @@ class SceneRunner {
   void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
     post({std::move(viewer), visit, Leave{}});
   }
-  /// One command. False if too many wait; it is forgotten.
-  bool submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, const SceneRequest& request);
+  /// Called on the scene's thread, when what was submitted before is carried out and answered.
+  using Call = std::function<void()>;
+  /// One command, or a call. False if too many wait; it is forgotten.
+  bool submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+              std::variant<SceneRequest, Call> what);
 
  private:
   struct Join {};
@@ -68,14 +77,18 @@ class SceneRunner {
   struct Task {
     std::shared_ptr<Viewer> viewer;
     std::uint64_t visit;
-    std::variant<Join, Leave, SceneRequest, Studied> what;
+    std::variant<Join, Leave, SceneRequest, Call, Studied> what;
   };
 
   void run(const std::stop_token& stop);
   std::vector<Task> wait_for_work(const std::stop_token& stop);
+  /// Until when it waits if nothing is asked.
+  StepClock::TimePoint next_work() const;
   void carry_out(Task& task);
   void study_if_wanted();
-  void step_if_due();
+  /// Whether a step was made.
+  bool step_if_due();
+  void publish_if_due(bool stepped);
   void send_stats_if_due();
   /// Comings, goings and the outcome of a study are never refused: there are no more of them than
   /// connections.
@@ -96,10 +109,11 @@ class SceneRunner {
   // The thread's own.
   LiveScene live_;
   StepClock clock_;
-  StepClock::TimePoint stats_due_{};
-  bool running_ = false;
-  std::optional<StudyThread> study_;  ///< from when it was first wanted; given up with the runner
-  std::uint64_t study_number_ = 0;    ///< of what it studies
+  StepClock::TimePoint stats_due_{}, stats_sent_{}, publish_due_{};
+  bool running_ = false;                       ///< in real time
+  std::uint64_t steps_made_ = 0;               ///< in no real time, since the last stats
+  std::optional<StudyThread> study_;           ///< from when it was first wanted
+  std::optional<std::uint64_t> study_number_;  ///< of what it studies or has studied
 
   std::jthread thread_;  // last: it uses all of the above
 };

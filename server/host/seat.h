@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,9 +25,10 @@ struct Seat {
   std::vector<int> levels;  ///< what it is sent
   std::vector<int>
       steps_unseen;  ///< in a row, by cloth, in which it did not see it; 0 where that makes no difference
-  std::vector<GrabId> grabs;  ///< what it holds
-  bool wants_curve = false;   ///< asked for the cost, and is told when it is known
-  bool wants_frame = true;    ///< even if the scene did not change
+  std::vector<GrabId> grabs;        ///< what it holds
+  std::uint64_t puts_again_at = 0;  ///< step from which on it may put balls and obstacles somewhere
+  bool wants_curve = false;         ///< asked for the cost, and is told when it is known
+  bool wants_frame = true;          ///< even if the scene did not change
 };
 
 }  // namespace weft::host

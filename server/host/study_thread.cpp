@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <utility>
 
+#include "cloth/interrupt.h"
 #include "cloth/parallel.h"
 #include "host/arithmetic.h"
 #include "study/thread_time.h"
@@ -26,7 +25,6 @@ constexpr double kDeadline = 200;
 constexpr double kTarget = 1e-4;  // of the references, in cloth sizes: 0.2 mm of a cloth of 2 m
 constexpr int kNiceness = 10;     // viewers' frames come first
 
-struct GivenUp {};
 struct TooLong {};
 
 /// One study at a time.
@@ -68,11 +66,11 @@ study::StudyPlan plan_of(const SimulationDescription& description) {
   return plan;
 }
 
-StudyOutcome study_of(const SimulationDescription& description, const std::stop_token& stop) {
+StudyOutcome study_of(const SimulationDescription& description) {
   // By processor time a busy machine makes a study later, not worse.
   const double deadline = study::thread_time() + kDeadline;
   const auto watch = [&] {
-    if (stop.stop_requested()) throw GivenUp();
+    check_interrupt(0);
     if (study::thread_time() > deadline) throw TooLong();
   };
   try {
@@ -91,20 +89,55 @@ StudyOutcome study_of(const SimulationDescription& description, const std::stop_
 
 }  // namespace
 
-StudyThread::StudyThread(SimulationDescription description, std::function<void(StudyOutcome)> done)
-    : thread_([description = std::move(description), done = std::move(done)](const std::stop_token& stop) {
-        pthread_setname_np(pthread_self(), "weft study");
-        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-        flush_subnormals();
-        const Turn turn(stop);
-        if (!turn.has()) return;
-        try {
-          // Whose processor time is what is measured; the scene's own threads stay with the scene.
-          StudyOutcome outcome;
-          call_alone([&] { outcome = study_of(description, stop); });
-          done(std::move(outcome));
-        } catch (const GivenUp&) {  // nobody is left to be told
-        }
-      }) {}
+StudyThread::StudyThread(std::function<void(std::uint64_t, StudyOutcome)> done)
+    : done_(std::move(done)), thread_([this](const std::stop_token& end) { run(end); }) {}
+
+StudyThread::~StudyThread() {
+  thread_.request_stop();
+  give_up();
+}
+
+void StudyThread::begin(std::uint64_t number, SimulationDescription description) {
+  {
+    const std::lock_guard lock(mutex_);
+    in_hand_.request_stop();
+    in_hand_ = std::stop_source();
+    next_.emplace(Job{number, std::move(description), in_hand_});
+  }
+  work_.notify_one();
+}
+
+void StudyThread::give_up() {
+  const std::lock_guard lock(mutex_);
+  in_hand_.request_stop();
+  next_.reset();
+}
+
+std::optional<StudyThread::Job> StudyThread::wait_for_job(const std::stop_token& end) {
+  std::unique_lock lock(mutex_);
+  work_.wait(lock, end, [this] { return next_.has_value(); });
+  return std::exchange(next_, std::nullopt);
+}
+
+void StudyThread::run(const std::stop_token& end) {
+  pthread_setname_np(pthread_self(), "weft study");
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  flush_subnormals();
+  while (auto job = wait_for_job(end)) carry_out(*job);
+}
+
+void StudyThread::carry_out(Job& job) {
+  const std::stop_token stop = job.stop.get_token();
+  const Turn turn(stop);
+  if (!turn.has()) return;
+  try {
+    const Interruptible interruptible(&stop);
+    // Whose processor time is what is measured; the scene's own threads stay with the scene.
+    StudyOutcome outcome;
+    call_alone([&] { outcome = study_of(job.description); });
+    done_(job.number, std::move(outcome));
+  } catch (const Interrupted&) {  // nobody is left to be told
+  }
+}
 
 }  // namespace weft::host

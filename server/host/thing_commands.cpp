@@ -33,7 +33,9 @@ Error no_such_grab(GrabId id) {
 
 }  // namespace
 
-LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat) {
+  if (const auto not_now = may_not_put(seat)) return *not_now;
+  if (const auto large = too_large(add.radius)) return *large;
   if (simulation_.colliders().balls().size() >= static_cast<std::size_t>(limits_.balls)) {
     return refused("limit", "",
                    "the scene has " + std::to_string(limits_.balls) + " balls, the most allowed");
@@ -47,28 +49,34 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat&) {
   ball.mass = add.mass;
   ball.friction = add.friction;
   const BallId id = simulation_.add_ball(ball);
-  balls_changed("ball.add", id);
+  has_put(id, seat);
+  balls_changed("ball.add", takes_effect_, id);
   return json{{"ball", id}};
 }
 
-LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat&) {
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat& seat) {
+  if (const auto not_now = may_not_put(seat)) return *not_now;
   if (!simulation_.move_ball(move.ball, to_vec3(move.position))) return no_such_ball(move.ball);
+  has_put(move.ball, seat);
   return json::object();
 }
 
-LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&) {
+LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat& seat) {
+  if (const auto not_now = may_not_put(seat)) return *not_now;
   if (!simulation_.throw_ball(thrown.ball, to_vec3(thrown.velocity))) return no_such_ball(thrown.ball);
-  balls_changed("ball.throw", thrown.ball);
+  has_put(thrown.ball, seat);
+  balls_changed("ball.throw", takes_effect_, thrown.ball);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallRemove& remove, Seat&) {
   if (!remove_ball(remove.ball)) return no_such_ball(remove.ball);
-  balls_changed("ball.remove", remove.ball);
+  balls_changed("ball.remove", takes_effect_, remove.ball);
   return json::object();
 }
 
-LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat&) {
+LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat& seat) {
+  if (const auto not_now = may_not_put(seat)) return *not_now;
   const auto& obstacles = simulation_.colliders().obstacles();
   if (move.obstacle >= obstacles.size()) return no_such_obstacle(move.obstacle, obstacles.size());
   Pose pose{to_vec3(move.position), obstacles[move.obstacle].pose.orientation};
@@ -76,16 +84,18 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat
     const protocol::Turn& q = *move.quaternion;
     pose.orientation = Quaternion(q[0], q[1], q[2], q[3]);
   }
+  has_put(kFirstObstacle + move.obstacle, seat);
   simulation_.move_obstacle(move.obstacle, pose);
   return json::object();
 }
 
-LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, Seat&) {
-  const std::size_t obstacles = simulation_.colliders().obstacles().size();
-  if (thrown.obstacle >= obstacles) return no_such_obstacle(thrown.obstacle, obstacles);
-  if (!simulation_.throw_obstacle(thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin))) {
-    return no_mass(thrown.obstacle);
-  }
+LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, Seat& seat) {
+  if (const auto not_now = may_not_put(seat)) return *not_now;
+  const auto& obstacles = simulation_.colliders().obstacles();
+  if (thrown.obstacle >= obstacles.size()) return no_such_obstacle(thrown.obstacle, obstacles.size());
+  if (!obstacles[thrown.obstacle].body) return no_mass(thrown.obstacle);
+  has_put(kFirstObstacle + thrown.obstacle, seat);
+  simulation_.throw_obstacle(thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin));
   return json::object();
 }
 
@@ -105,6 +115,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleGrab& grab, Seat
   if (grab.position) hand = to_vec3(*grab.position);
   const auto id = simulation_.grab_obstacle(grab.obstacle, to_vec3(grab.point), hand, grab.max_force);
   if (!id) return no_mass(grab.obstacle);
+  has_put(kFirstObstacle + grab.obstacle, seat);
   seat.grabs.push_back(*id);
   return json{{"grab", *id}};
 }
@@ -178,7 +189,10 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
   }
   if (frictions() == before) return json::object();
   if (composition() != studied_before) study_outdated();
-  tell_event("friction", takes_effect_, frictions());
+  events_.add("friction", "", takes_effect_, [this] {
+    return json{{"balls", balls_json(simulation_.colliders())},
+                {"frictions", frictions_json(simulation_.colliders())}};
+  });
   return json::object();
 }
 

@@ -12,17 +12,23 @@ void Viewer::on_wake(std::function<void()> wake) {
 
 std::optional<Outgoing> Viewer::take() {
   const std::lock_guard lock(mutex_);
-  if (!texts_.empty()) {
-    Outgoing next{std::move(texts_.front()), nullptr};
-    texts_.pop_front();
-    return next;
-  }
-  if (may_send_frame()) {
+  if (may_send_frame() && (texts_.empty() || !frame_was_last_)) {
+    frame_was_last_ = true;
     if (window_ > 0) outstanding_.push_back(newest_->frame);
     return Outgoing{nullptr, std::exchange(newest_, nullptr)};
   }
-  idle_ = true;
-  return std::nullopt;
+  if (texts_.empty()) {
+    idle_ = true;
+    return std::nullopt;
+  }
+  frame_was_last_ = false;
+  Waiting next = std::move(texts_.front());
+  texts_.pop_front();
+  if (next.key.empty()) {
+    --unkeyed_;
+    if (before_frame_ > 0) --before_frame_;
+  }
+  return Outgoing{std::move(next.text), nullptr};
 }
 
 bool Viewer::overflowed() const {
@@ -32,17 +38,12 @@ bool Viewer::overflowed() const {
 
 void Viewer::send(Text text) {
   const std::lock_guard lock(mutex_);
-  // One that does not read is never found idle: what is being sent to it does not get through.
-  if (!push(std::move(text))) return wake_now();
-  wake_if_idle();
+  push(std::move(text), {});
 }
 
-void Viewer::send(std::uint64_t visit, Text text) {
+void Viewer::send(std::uint64_t visit, Text text, std::string_view key) {
   const std::lock_guard lock(mutex_);
-  if (visit != visit_) return;
-  // One that does not read is never found idle: what is being sent to it does not get through.
-  if (!push(std::move(text))) return wake_now();
-  wake_if_idle();
+  if (visit == visit_) push(std::move(text), key);
 }
 
 void Viewer::publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame) {
@@ -50,7 +51,23 @@ void Viewer::publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> fr
   if (visit != visit_) return;
   if (newest_) ++dropped_;
   newest_ = std::move(frame);
+  before_frame_ = unkeyed_;
   wake_if_idle();
+}
+
+void Viewer::command_given() {
+  const std::lock_guard lock(mutex_);
+  ++unanswered_;
+}
+
+void Viewer::command_answered() {
+  const std::lock_guard lock(mutex_);
+  --unanswered_;
+}
+
+bool Viewer::all_answered() const {
+  const std::lock_guard lock(mutex_);
+  return unanswered_ == 0;
 }
 
 std::uint64_t Viewer::enter() {
@@ -81,14 +98,23 @@ std::uint64_t Viewer::dropped() const {
   return dropped_;
 }
 
-bool Viewer::push(Text text) {
-  if (texts_.size() >= kMaxTexts) return std::exchange(overflowed_, true);
-  texts_.push_back(std::move(text));
-  return true;
+void Viewer::push(Text text, std::string_view key) {
+  if (!key.empty()) {
+    std::erase_if(texts_, [&](const Waiting& waiting) { return waiting.key == key; });
+  } else if (unkeyed_ < kMaxTexts) {
+    ++unkeyed_;
+  } else {
+    // One that does not read is never found idle: what is being sent to it does not get through.
+    if (!std::exchange(overflowed_, true)) wake_now();
+    return;
+  }
+  texts_.push_back({std::move(text), std::string(key)});
+  wake_if_idle();
 }
 
 bool Viewer::may_send_frame() const {
-  return newest_ && (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_));
+  return newest_ && before_frame_ == 0 &&
+         (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_));
 }
 
 void Viewer::wake_if_idle() {

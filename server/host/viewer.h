@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,24 +37,34 @@ struct Outgoing {
 /// any thread.
 class Viewer {
  public:
-  /// Control messages that may wait; the viewer does not read when there are more.
+  /// Control messages without a key that may wait; the viewer does not read when there are more.
   static constexpr std::size_t kMaxTexts = 256;
 
   /// `wake` is called, on the filling thread, when there is something to send after take() returned nothing,
   /// and when the outbox overflows. Set it before the first take(). It must not use the viewer. When
   /// on_wake(nullptr) has returned, it is not called any more and no call is under way.
   void on_wake(std::function<void()> wake);
-  /// The next message: control before frames, a frame only while fewer than the window are unacknowledged.
+  /// The next message. Control messages keep their order. A frame is taken only while fewer than the window
+  /// are unacknowledged, and never before a control message without a key that was sent before the frame was
+  /// published; where both a control message and a frame may be taken they take turns.
   std::optional<Outgoing> take();
   /// More than kMaxTexts waited; what came after them is lost, so the viewer must be closed.
   bool overflowed() const;
 
   /// A control message, whichever scene the viewer is in.
   void send(Text text);
-  /// A control message of the scene entered as `visit`; dropped when the viewer has left it.
-  void send(std::uint64_t visit, Text text);
+  /// A control message of the scene entered as `visit`; dropped when the viewer has left it. One with a key
+  /// takes the place of one with the same key that still waits, at the end of the line: whatever a slow
+  /// viewer is told so, no more waits for it than there are keys.
+  void send(std::uint64_t visit, Text text, std::string_view key = {});
   /// The newest frame of that scene, in place of one that still waits.
   void publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame);
+
+  /// A command of the viewer's waits for its scene; its reply has been sent, if it has one.
+  void command_given();
+  void command_answered();
+  /// No command waits.
+  bool all_answered() const;
 
   /// Begins a stay in a scene and names it: nothing of the scene before is sent any more, nor awaits an
   /// acknowledgement.
@@ -67,8 +78,7 @@ class Viewer {
 
  private:
   // These need mutex_.
-  /// False if the outbox overflows by it.
-  bool push(Text text);
+  void push(Text text, std::string_view key);
   bool may_send_frame() const;
   void wake_if_idle();
   void wake_now();
@@ -77,8 +87,16 @@ class Viewer {
   std::function<void()> wake_;
   bool idle_ = false;  ///< take() found nothing and nobody was woken since
   bool overflowed_ = false;
-  std::deque<Text> texts_;
+  struct Waiting {
+    Text text;
+    std::string key;
+  };
+  std::deque<Waiting> texts_;
+  std::size_t unkeyed_ = 0;       ///< of texts_, those without a key
+  std::size_t before_frame_ = 0;  ///< of these, those sent before newest_ was published
+  bool frame_was_last_ = false;   ///< what was taken last
   std::shared_ptr<const FrameMessage> newest_;
+  int unanswered_ = 0;  ///< commands
   std::uint64_t visit_ = 0;
   std::uint64_t dropped_ = 0;
   int window_ = 0;  ///< 0: without flow.ack

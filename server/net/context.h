@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "net/log_limiter.h"
 #include "net/server.h"
 #include "net/static_files.h"
 
@@ -19,6 +20,7 @@ struct Context {
   StaticFiles files;
   std::size_t connections = 0;
   std::unordered_set<WebsocketSession*> viewers;
+  LogLimiter arrivals, refusals;  ///< of lines on viewers that come and go, and on those that are not let
   bool stopping = false;
   std::function<void()> on_viewers_gone;  ///< called when the last viewer has gone while stopping
 };

@@ -66,7 +66,8 @@ void Server::Impl::accept() {
   acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
     if (!acceptor.is_open()) return;
     if (error) {
-      spdlog::warn("accept: {}", error.message());
+      if (const auto more = context.refusals.admit(std::chrono::steady_clock::now()))
+        spdlog::warn("accept: {}{}", error.message(), *more);
       pause.expires_after(kAcceptPause);
       pause.async_wait([this](boost::system::error_code cancelled) {
         if (!cancelled) accept();
@@ -76,7 +77,8 @@ void Server::Impl::accept() {
     if (context.connections < context.options.max_connections) {
       start_http_session(context, std::move(socket));
     } else {
-      spdlog::warn("a connection was refused: {} are open", context.connections);
+      if (const auto more = context.refusals.admit(std::chrono::steady_clock::now()))
+        spdlog::warn("a connection was refused: {} are open{}", context.connections, *more);
     }
     accept();
   });

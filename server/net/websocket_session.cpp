@@ -28,7 +28,7 @@ constexpr auto kHandshakeTime = std::chrono::seconds(10);
 constexpr auto kIdleTime = std::chrono::seconds(60);
 /// For a viewer to take what it is sent last, and to answer the close.
 constexpr auto kCloseTime = std::chrono::seconds(2);
-constexpr std::uint16_t kDoesNotRead = 4004;
+constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004;
 
 /// Frames wait here, where newer ones replace them, and not in the kernel, where they grow old: 4 MB
 /// otherwise.
@@ -107,7 +107,8 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
  private:
   void on_accept(error_code error) {
     if (error) return;
-    spdlog::info("viewer {}: joined {}", peer_, connection_.scene().name());
+    if (const auto more = context_.arrivals.admit(std::chrono::steady_clock::now()))
+      spdlog::info("viewer {}: joined {}{}", peer_, connection_.scene().name(), *more);
     accepted_ = true;
     read();
     pump();
@@ -120,22 +121,26 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 
   void on_read(error_code error) {
     if (error) {
-      spdlog::info("viewer {}: gone ({})", peer_, why_gone(error));
+      if (const auto more = context_.arrivals.admit(std::chrono::steady_clock::now()))
+        spdlog::info("viewer {}: gone ({}){}", peer_, why_gone(error), *more);
       // A write may still wait for a peer that is no longer there.
       beast::get_lowest_layer(ws_).close();
       close_deadline_.cancel();
       return;
     }
-    bool in_time = true;
+    auto pace = host::Connection::Pace::go_on;
     if (!closing_ && ws_.got_binary()) {
       close(websocket::close_code::unknown_data, "only text messages", true);
     } else if (!closing_) {
       const auto data = incoming_.data();
-      in_time = connection_.receive({static_cast<const char*>(data.data()), data.size()},
-                                    std::chrono::steady_clock::now());
+      pace = connection_.receive({static_cast<const char*>(data.data()), data.size()},
+                                 std::chrono::steady_clock::now());
     }
     incoming_.clear();
-    if (in_time) return read();
+    if (pace == host::Connection::Pace::go_on) return read();
+    // Nothing more is read of it.
+    if (pace == host::Connection::Pace::end)
+      return cut_off(kTooManyMessages, "more messages a second than allowed, for too long");
     // A flood is taken in no faster than what is allowed: the rest waits at its sender.
     read_pause_.expires_after(std::chrono::milliseconds(1000 / context_.host.limits().messages_per_second));
     read_pause_.async_wait([self = shared_from_this()](error_code) { self->read(); });
@@ -146,16 +151,21 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     return error.message();
   }
 
+  /// Closes at once, for what the viewer does or does not do.
+  void cut_off(std::uint16_t code, const char* reason) {
+    if (const auto more = context_.refusals.admit(std::chrono::steady_clock::now()))
+      spdlog::warn("viewer {}: closed, {}: {}{}", peer_, code, reason, *more);
+    close(code, reason, false);
+  }
+
   /// Writes the next message, unless one is being written.
   void pump() {
-    if (!closing_ && viewer().overflowed()) {
-      spdlog::warn("viewer {}: does not read its control messages", peer_);
-      close(kDoesNotRead, "control messages are not read", false);
-    }
+    if (!closing_ && viewer().overflowed()) cut_off(kDoesNotRead, "control messages are not read");
     if (!accepted_ || writing_ || close_sent_) return;
     if (closing_ && !drain_) return send_close();
     auto next = viewer().take();
-    if (closing_ && !(next && next->text)) return send_close();
+    while (closing_ && next && !next->text) next = viewer().take();  // no frames any more
+    if (closing_ && !next) return send_close();
     if (!next) return;
     outgoing_ = std::move(*next);
     writing_ = true;

@@ -203,6 +203,18 @@ test('answers find their requests in any order', async () => {
   assert.deepEqual((await answers).map(({ t }) => t), [1, 2]);
 });
 
+test('a ping tells how old frames are', async () => {
+  const server = await serve({ answer: ({ id, t }) => ({ op: 'pong', re: id, t, f: 1, time: 0, server_ms: 2 ** 32 - 50 }) });
+  const client = await join(server, { window: 0 });
+  const frame = (serverMs) => ({ stamp: { serverMs } });
+  assert.ok(Number.isNaN(client.age(frame(0))));
+  const roundTrip = await client.ping();
+  const since = client.age(frame(2 ** 32 - 50));  // the pong's own time
+  assert.ok(since >= 0 && since <= roundTrip + 1000, `${since}`);
+  assert.ok(Math.abs(client.age(frame(2 ** 32 - 60050)) - since - 60000) < 5000);
+  assert.ok(Math.abs(client.age(frame(59950)) - since + 60000) < 5000);  // its clock has wrapped round since
+});
+
 test('frames are decoded, handed over and acknowledged in turn', async () => {
   const server = await serve();
   const seen = [];

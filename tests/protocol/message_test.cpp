@@ -141,8 +141,10 @@ TEST(Message, ServerTextsAreTheContracts) {
             R"({"op":"error","re":7,"code":"range","path":"/speed","message":"no"})");
   EXPECT_EQ(error_text({{}, "bad_json", "", "no"}),
             R"({"op":"error","code":"bad_json","path":"","message":"no"})");
-  EXPECT_EQ(pong_text(8, 1.5, 120, 2.0), R"({"op":"pong","re":8,"t":1.5,"f":120,"time":2.0})");
-  EXPECT_EQ(pong_text({}, 1.5, 120, 2.0), R"({"op":"pong","t":1.5,"f":120,"time":2.0})");
+  EXPECT_EQ(pong_text(8, 1.5, 120, 2.0, 4115200),
+            R"({"op":"pong","re":8,"t":1.5,"f":120,"time":2.0,"server_ms":4115200})");
+  EXPECT_EQ(pong_text({}, 1.5, 120, 2.0, 4294967295),
+            R"({"op":"pong","t":1.5,"f":120,"time":2.0,"server_ms":4294967295})");
   EXPECT_EQ(event_text("wind", 121, {{"wind", {{"speed", 2}}}}),
             R"({"op":"event","kind":"wind","f":121,"wind":{"speed":2}})");
   EXPECT_EQ(notice_text("slow", "behind"), R"({"op":"notice","code":"slow","message":"behind"})");

@@ -3,6 +3,7 @@ import asyncio
 import contextlib
 import http
 import json
+import math
 import pathlib
 import struct
 import subprocess
@@ -249,6 +250,19 @@ class Client(unittest.IsolatedAsyncioTestCase):
             for ping in reversed(pings):
                 await server.socket.send(json.dumps({"op": "pong", "re": ping["id"], "t": ping["t"], "f": 1, "time": 0}))
             self.assertEqual([(await first)["t"], (await second)["t"]], [1, 2])
+
+    async def test_a_ping_tells_how_old_frames_are(self):
+        def answer(message):
+            return {"op": "pong", "re": message["id"], "t": message["t"], "f": 1, "time": 0, "server_ms": 2 ** 32 - 50}
+        async with Server(answer) as server, await weft.connect(server.url, window=0) as scene:
+            def frame(server_ms):
+                return weft.Frame(weft.Stamp(1, 1, 0.0, server_ms, False, False), [], [], [])
+            self.assertTrue(math.isnan(scene.age(frame(0))))
+            round_trip = await scene.ping()
+            since = scene.age(frame(2 ** 32 - 50))  # the pong's own time
+            self.assertTrue(0 <= since <= 1000 * round_trip + 1000, since)
+            self.assertAlmostEqual(scene.age(frame(2 ** 32 - 60050)) - since, 60000, delta=5000)
+            self.assertAlmostEqual(scene.age(frame(59950)) - since, -60000, delta=5000)  # its clock has wrapped round since
 
     async def test_frames_are_acknowledged_as_they_are_taken(self):
         async with Server() as server, await weft.connect(server.url) as scene:

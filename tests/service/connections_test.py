@@ -121,7 +121,7 @@ class Connections(unittest.IsolatedAsyncioTestCase):
                         await asyncio.sleep(0.01)
             connection.setblocking(False)
             await asyncio.wait_for(flood(), 2 * GENEROUS)
-        self.server.wait_for_log("does not read its control messages")
+        self.server.wait_for_log("control messages are not read")
         await watcher.next_frame()
 
     async def test_the_257th_viewer_is_503(self):

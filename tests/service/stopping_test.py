@@ -2,6 +2,7 @@
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 from serving import BINARY, GENEROUS, SANITIZED, SCENES, Server
@@ -37,6 +38,18 @@ class Stopping(unittest.IsolatedAsyncioTestCase):
         server = self.start(SCENES / "hung.json")
         viewer, _ = server.raw_socket()
         with viewer:
+            server.terminate()
+            self.assertEqual(server.process.wait(STOP_TIME), 0)
+
+    def test_sigterm_interrupts_a_step_of_minutes(self):
+        server = self.start(SCENES / "hung.json", "--set", '/cloths/0/levels={"min":8,"max":8}',
+                            "--set", '/integrator={"type":"xpbd","substeps":10000}')
+        viewer, _ = server.raw_socket()
+        with viewer:
+            received = b""
+            while b'"op":"scene"' not in received:  # from then on its thread steps
+                received += viewer.recv(65536)
+            time.sleep(0.2)
             server.terminate()
             self.assertEqual(server.process.wait(STOP_TIME), 0)
 

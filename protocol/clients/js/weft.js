@@ -326,6 +326,8 @@ export class WeftClient {
   #newest = null;
   #delivering = false;
   #camera = null;
+  #quickestPing = Infinity;
+  #clockOffset = NaN;  // of the server's clock to this one's, ms
   /** Ends a wait between attempts early. @type {(() => void)|null} */
   #wake = null;
 
@@ -553,20 +555,39 @@ export class WeftClient {
     return this.send('resume');
   }
 
+  /** Puts the scene back to its start; the reply has the new `epoch`. */
   reset() {
     return this.send('reset');
   }
 
-  /** While paused. @param {number} [count] */
+  /** While paused; as fast as it goes: the reply's `f` is the step at which the scene stands still again. @param {number} [count] */
   step(count = 1) {
     return this.send('step', { count });
   }
 
-  /** Round-trip time, ms. */
+  /**
+   * Round-trip time, ms. The answer comes after the replies to all commands sent before, so that it is a barrier. Each ping that is
+   * quicker than those before tells better how the server's clock goes (`age`).
+   */
   async ping() {
     const t = performance.now();
-    await this.send('ping', { t });
-    return performance.now() - t;
+    const pong = await this.send('ping', { t });
+    const end = performance.now();
+    if (end - t < this.#quickestPing && pong.server_ms !== undefined) {
+      this.#quickestPing = end - t;
+      this.#clockOffset = pong.server_ms - (t + end) / 2;
+    }
+    return end - t;
+  }
+
+  /**
+   * How long ago, ms, the server sent the frame off, to about half of the quickest ping's round trip; NaN before the first ping.
+   * @param {Frame} frame
+   */
+  age(frame) {
+    const wrap = 2 ** 32;  // of the server's clock
+    const age = (performance.now() + this.#clockOffset - frame.stamp.serverMs) % wrap;
+    return age - wrap * Math.round(age / wrap);
   }
 
   /**
@@ -593,6 +614,8 @@ export class WeftClient {
     this.#socket = socket;
     this.welcome = this.scene = this.#newest = null;
     this.#acks = false;
+    this.#quickestPing = Infinity;
+    this.#clockOffset = NaN;
     try {
       await new Promise((resolve, reject) => {
         const timer = setTimeout(() => reject(new WeftError('timeout', `no connection to ${this.#url} within ${timeout} ms`)), timeout);

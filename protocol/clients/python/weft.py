@@ -321,6 +321,7 @@ class Client:
         self._acks = False
         self._closing = False
         self._lost: typing.Optional[WeftError] = None
+        self._quickest_ping, self._clock_offset_ms = math.inf, math.nan
         self._next_id = 1
         self._requests: typing.Dict[int, asyncio.Future] = {}
         self._newest: typing.Optional[bytes] = None
@@ -544,17 +545,30 @@ class Client:
         return await self.send("resume")
 
     async def reset(self) -> dict:
+        """Puts the scene back to its start; the reply has the new `epoch`."""
         return await self.send("reset")
 
     async def step(self, count: int = 1) -> dict:
-        """Steps a paused scene."""
+        """Steps a paused scene, as fast as it goes: the reply's `f` is the step at which it stands still again."""
         return await self.send("step", count=count)
 
     async def ping(self) -> float:
-        """Round-trip time, s."""
-        start = asyncio.get_running_loop().time()
-        await self.send("ping", t=start)
-        return asyncio.get_running_loop().time() - start
+        """Round-trip time, s. The answer comes after the replies to all commands sent before, so that it is a barrier. Each
+        ping that is quicker than those before tells better how the server's clock goes (`age`)."""
+        clock = asyncio.get_running_loop().time
+        start = clock()
+        pong = await self.send("ping", t=start)
+        end = clock()
+        if end - start < self._quickest_ping and "server_ms" in pong:
+            self._quickest_ping = end - start
+            self._clock_offset_ms = pong["server_ms"] - 500 * (start + end)
+        return end - start
+
+    def age(self, frame: Frame) -> float:
+        """How long ago, ms, the server sent the frame off, to about half of the quickest ping's round trip. NaN before the
+        first ping."""
+        now = 1000 * asyncio.get_running_loop().time() + self._clock_offset_ms
+        return math.remainder(now - frame.stamp.server_ms, 2.0 ** 32)  # the clock wraps round
 
     def __aiter__(self):
         return self

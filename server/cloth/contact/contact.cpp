@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cloth/contact/node_contact.h"
+#include "cloth/interrupt.h"
 #include "cloth/kernels/contact_kernels.h"
 #include "cloth/kernels/node_kernels.h"
 
@@ -14,6 +15,8 @@ namespace {
 /// A node and a solid that approach by less than this part of the solid's inner radius in a substep cannot
 /// miss each other by more than a graze: a chord of R/2 lies at most R/32 deep in a ball.
 constexpr double kSlowMove = 0.5;
+/// Of a node and a solid that it may be in (WorkLimit).
+constexpr double kWorkOfContact = 4;
 
 /// Where the nodes were at the substep's start: own * position + other * other's values.
 template <class Real>
@@ -169,6 +172,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
   not_held_.clear();
   kept_aside_.clear();
   counters_.nodes_in_contact += static_cast<std::uint64_t>(in_contact);
+  check_interrupt(kWorkOfContact * static_cast<double>(in_contact) * static_cast<double>(solids.size()));
   return in_contact;
 }
 
@@ -218,6 +222,7 @@ void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorFi
           found.push_back({particles.grid().index(row, col), solid.id});
         }
       });
+  check_interrupt(kWorkOfContact * static_cast<double>(found.size()));
 }
 
 template <class Real>

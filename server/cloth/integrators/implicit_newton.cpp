@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cloth/integrators/implicit.h"
+#include "cloth/interrupt.h"
 #include "cloth/solver/node_vector.h"
 
 namespace weft {
@@ -60,6 +61,9 @@ constexpr double kRounding = 4;
 /// allowed.
 constexpr double kSolveRounding = 300;
 
+/// Of a linearisation and what is asked of its change, a node (WorkLimit).
+constexpr double kWorkOfNewton = 10;
+
 }  // namespace
 
 template <class Real>
@@ -71,6 +75,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
   const bool heap = forces.layered && !memory_->contacts.empty();
   int heap_rounds = 0;
   for (int left = parameters_.newton_iterations; left > -kSpareSearches; --left) {
+    check_interrupt(kWorkOfNewton * static_cast<double>(count));
     assemble(particles, forces);
     const LinearSolveReport solved =
         s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cloth/clock.h"
+#include "cloth/interrupt.h"
 #include "cloth/kernels/node_kernels.h"
 #include "cloth/solver/node_vector.h"
 
@@ -140,6 +141,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     lasting_ = slow_;
   }
   for (int s = 0; s < report.substeps; ++s) {
+    check_interrupt(static_cast<double>(particles.grid().size()));
     const auto begin = Clock::now();
     forces.context.time = time + s * h;
     forces.carry_pins(particles, time + (s + 1) * h);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cloth/clock.h"
+#include "cloth/interrupt.h"
 #include "cloth/kernels/limited_kernels.h"
 #include "cloth/kernels/torn_kernels.h"
 
@@ -60,6 +61,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
   const double force_share = rate * h > 1 ? 1 / (rate * h) : 1;
   forces.context.damping_limit = std::max(rate, 1 / h);
   for (int s = 0; s < report.substeps; ++s) {
+    check_interrupt(static_cast<double>(particles.grid().size()));
     const auto begin = Clock::now();
     forces.context.time = time + s * h;
     forces.carry_pins(particles, time + (s + 1) * h);

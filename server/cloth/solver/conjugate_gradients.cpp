@@ -4,9 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/interrupt.h"
 #include "cloth/kernels/implicit_kernels.h"
 
 namespace weft {
+namespace {
+
+/// With its multigrid cycle, a node (WorkLimit).
+constexpr double kWorkOfCycle = 4;
+
+}  // namespace
 
 void ErrorEstimate::add(double progress) {
   found_[2] = found_[1];
@@ -42,6 +49,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
   ErrorEstimate error;
   while (rz > 0 && report.iterations < max_iterations) {
+    check_interrupt(kWorkOfCycle * static_cast<double>(grid.size()));
     const double curvature = system.multiply(p, q);
     if (!(curvature > 0)) break;
     const double step = rz / curvature;

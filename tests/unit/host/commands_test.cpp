@@ -16,6 +16,18 @@ TEST_F(Commands, TakeEffectInTheNextStep) {
   EXPECT_EQ(live.simulation().wind().speed, 3.0);
 }
 
+// However many commands come between two frames, each viewer is told once.
+TEST_F(Commands, EventsOfOneThingAreToldOnceAFrame) {
+  other.texts.clear();
+  for (int i = 1; i <= 400; ++i)
+    live.apply(reader.viewer, visit, {std::nullopt, WindSet{{1, 0, 0}, 0.1 * i}});
+  live.apply(reader.viewer, visit, {std::nullopt, BallAdd{.position = {0, 0, 3}, .radius = 0.1}});
+  steps(1);
+  ASSERT_EQ(other.texts.size(), 2U);
+  EXPECT_NEAR(other.texts[0].at("wind").at("speed").get<double>(), 40, 1e-9);
+  EXPECT_EQ(other.texts[1].at("kind"), "ball.add");
+}
+
 TEST_F(Commands, GustsAreSetWithTheWindAndStayUntilTheyAreSetAgain) {
   command(WindSet{{1, 0, 0}, 3.0, 0.25});
   EXPECT_EQ(other.last("event", "wind").at("wind"),

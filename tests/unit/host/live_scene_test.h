@@ -20,6 +20,7 @@ class LiveSceneTest : public ::testing::Test {
   /// Gives a command and returns its reply.
   json command(SceneCommand command) {
     live.apply(reader.viewer, visit, {++id, std::move(command)});
+    live.tell_events();
     drain();
     return reader.reply(id);
   }
@@ -76,6 +77,7 @@ class Commands : public LiveSceneTest {
 
  private:
   void publish() {
+    live.tell_events();
     live.publish(0);
     drain();
   }

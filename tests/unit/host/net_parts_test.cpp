@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "net/client.h"
+#include "net/log_limiter.h"
 #include "net/origin.h"
 #include "net/static_files.h"
 
@@ -12,6 +13,20 @@ namespace weft::net {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(LogLimiter, LeavesOutWhatIsTooMuchAndCountsIt) {
+  const LogLimiter::TimePoint start{std::chrono::hours(1)};
+  const auto after = [&](int ms) { return start + std::chrono::milliseconds(ms); };
+  LogLimiter limiter(3, 1);
+  int admitted = 0;
+  for (int ms = 0; ms < 500; ++ms) admitted += limiter.admit(after(ms)).has_value();
+  EXPECT_EQ(admitted, 3);
+  EXPECT_EQ(limiter.admit(after(1000)), " (497 more like it were not logged)");
+  EXPECT_EQ(limiter.admit(after(2000)), "");
+  admitted = 0;
+  for (int ms = 2001; ms < 60001; ms += 10) admitted += limiter.admit(after(ms)).has_value();
+  EXPECT_NEAR(admitted, 58, 1);  // one a second
+}
 
 TEST(Origin, OwnPagesThisMachineAndScriptsMay) {
   EXPECT_TRUE(origin_allowed("", "weft.example:8080", {}));

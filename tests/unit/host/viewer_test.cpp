@@ -28,14 +28,52 @@ TEST(Viewer, KeepsTheNewestFrameOnly) {
   EXPECT_EQ(viewer.dropped(), 4U);
 }
 
-TEST(Viewer, ControlComesInOrderAndBeforeFrames) {
+/// What is to be sent next: the text, or the frame's number.
+std::string next(Viewer& viewer) {
+  const auto taken = viewer.take();
+  if (!taken) return "nothing";
+  return taken->text ? *taken->text : std::to_string(taken->frame->frame);
+}
+
+TEST(Viewer, AFrameComesAfterTheControlMessagesBeforeIt) {
   Viewer viewer;
-  viewer.publish(viewer.enter(), frame(1));
+  const auto visit = viewer.enter();
   viewer.send(text("a"));
+  viewer.send(visit, text("event"), "wind");
   viewer.send(text("b"));
-  EXPECT_EQ(*viewer.take()->text, "a");
-  EXPECT_EQ(*viewer.take()->text, "b");
-  EXPECT_EQ(next_frame(viewer), 1);
+  viewer.publish(visit, frame(1));
+  viewer.send(text("c"));
+  EXPECT_EQ(next(viewer), "a");
+  EXPECT_EQ(next(viewer), "event");
+  EXPECT_EQ(next(viewer), "b");
+  EXPECT_EQ(next(viewer), "1");
+  EXPECT_EQ(next(viewer), "c");
+  EXPECT_EQ(next(viewer), "nothing");
+}
+
+TEST(Viewer, OfOneKeyTheNewestTakesTheOthersPlace) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  for (int i = 0; i < 1000; ++i) viewer.send(visit, text(std::to_string(i)), i % 2 ? "odd" : "even");
+  viewer.send(text("reply"));
+  EXPECT_FALSE(viewer.overflowed());  // however many: a viewer is not to blame for what others do
+  EXPECT_EQ(next(viewer), "998");
+  EXPECT_EQ(next(viewer), "999");
+  EXPECT_EQ(next(viewer), "reply");
+  EXPECT_EQ(next(viewer), "nothing");
+}
+
+TEST(Viewer, FramesAndEventsTakeTurns) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  std::string order;
+  for (const char* key : {"a", "b", "c"}) viewer.send(visit, text(key), key);
+  for (std::uint32_t f = 0; f < 4; ++f) {
+    viewer.publish(visit, frame(f));
+    order += next(viewer);
+    order += next(viewer);
+  }
+  EXPECT_EQ(order, "0a1b2c3nothing");
 }
 
 TEST(Viewer, WindowBoundsTheUnacknowledged) {
