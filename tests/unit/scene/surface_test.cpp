@@ -1,6 +1,7 @@
 // Convex bodies and meshes: what OBJ files, lathes and hulls give, and files that are refused.
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "cloth/contact/triangle_mesh.h"
 #include "fixtures.h"
@@ -129,6 +130,41 @@ TEST_F(SurfaceFile, LargerThanAllowedIsRefusedUnread) {
   fs::resize_file(folder_ / "scenes/large.obj", (64u << 20) + 1);
   EXPECT_EQ(problems("large.obj"),
             "/colliders/0/file: is \"large.obj\", which has 67108865 bytes; at most 67108864 are allowed\n");
+}
+
+/// `count` corners on a circle, and a face of them all.
+std::string polygon(int count, const char* line_end) {
+  std::ostringstream text;
+  for (int i = 0; i < count; ++i)
+    text << "v " << std::cos(i * 6.28 / count) << ' ' << std::sin(i * 6.28 / count) << " 0" << line_end;
+  text << " f";
+  for (int i = 1; i <= count; ++i) text << "\t" << i << '/' << i;
+  return text.str();
+}
+
+TEST_F(SurfaceFile, FacesOfManyCornersAreRefusedBeforeTheyAreCut) {
+  // To cut one of a million into triangles would take hours: each is tried against all corners.
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    for (const int corners : {129, 1'000'000}) {
+      write("scenes/face.obj", polygon(corners, line_end));
+      EXPECT_EQ(problems("face.obj"), "/colliders/0/file: is \"face.obj\", which has a face of " +
+                                          std::to_string(corners) + " corners in line " +
+                                          std::to_string(corners + 1) + "; at most 128 are allowed\n");
+    }
+    write("scenes/face.obj", polygon(128, line_end));
+    EXPECT_NE(problems("face.obj").find("is no solid: the surface is not closed: 128 edges"),
+              std::string::npos);
+  }
+}
+
+TEST_F(SurfaceFile, TrianglesAreCountedBeforeTheyAreRead) {
+  std::string text = "v 0 0 0\n";
+  for (int i = 0; i <= 500'000; ++i) text += "f 1 1 1 1\n";
+  write("scenes/faces.obj", text);
+  EXPECT_EQ(
+      problems("faces.obj"),
+      "/colliders/0/file: is \"faces.obj\", which has 1000002 triangles; at most 1000000 are allowed in a "
+      "file\n");
 }
 
 TEST(Surfaces, OfAllBodiesTogetherAreBounded) {
