@@ -1,8 +1,25 @@
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+
+namespace {
+
+/// What `code` becomes once all of standard output is written: a result that could not be told is none.
+int with_output_written(int code) {
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
+  std::fprintf(stderr, "weft: standard output: writing failed%s%s\n", errno != 0 ? ": " : "",
+               errno != 0 ? std::strerror(errno) : "");
+  return code != 0 ? code : weft::cli::kFailed;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Weft: cloth simulation with view-dependent detail", "weft"};
@@ -18,10 +35,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : weft::cli::kBadUsage;  // 0: help was asked for
+    // 0: help was asked for
+    return with_output_written(app.exit(error) == 0 ? 0 : weft::cli::kBadUsage);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "weft: %s\n", error.what());
     return weft::cli::kFailed;
   }
-  return exit_code;
+  return with_output_written(exit_code);
 }

@@ -5,10 +5,13 @@ import os
 import pathlib
 import pty
 import re
+import resource
 import select
+import signal
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
 WEFT = os.environ["WEFT_BINARY"]
@@ -317,6 +320,81 @@ class Cost(CliTest):
         result = weft("cost", "swing", "--levels", 3, "--duration", "0.1", "--budget", "0.000001s")
         self.assertEqual(result.returncode, 3)
         self.assertIn("no run of swing stayed sound within the budget", result.stderr)
+
+
+class FullDisk(CliTest):
+    """What cannot be written whole is told, with exit code 1, and is not there."""
+
+    def run_limited(self, *arguments):
+        """With files of at most 4 KiB: beyond, writing fails as on a full disk, and needs no disk for it."""
+        return subprocess.run([WEFT, *map(str, arguments)], capture_output=True, text=True, timeout=LIMIT_S,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)),
+                              restore_signals=False)  # Python ignores SIGXFSZ
+
+    def test_files_are_whole_or_not_there(self):
+        run = ("run", "flag", "--frames", 100, "--level", 4)
+        cost = ("cost", "swing", *Cost.QUICK)
+        for arguments, name in ((run + ("--out",), "m.csv"), (run + ("--out",), "m.pc2"), (run + ("--out",), "m.glb"),
+                                (run + ("--out",), "m.obj"), (run + ("--stats",), "s.csv"), (cost + ("--csv",), "c.csv"),
+                                (cost + ("--out",), "c.html")):
+            with self.subTest(name):
+                path = self.folder / name
+                path.write_text("of an earlier run")
+                result = self.run_limited(*arguments, path)
+                written = self.folder / "m_0000.obj" if name == "m.obj" else path
+                self.assertEqual((result.returncode, result.stderr), (1, f"weft: {written}: writing failed: File too large\n"))
+                self.assertEqual(path.read_text(), "of an earlier run")
+                path.unlink()
+                self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_run_that_is_killed_leaves_what_was_there(self):
+        path = self.folder / "m.csv"
+        path.write_text("of an earlier run")
+        process = subprocess.Popen([WEFT, "run", "flag", "--frames", "1000000", "--level", "4", "--out", path])
+        part = self.folder / "m.csv.part"
+        while not (part.exists() and part.stat().st_size > 0) and process.poll() is None:
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        self.assertEqual(path.read_text(), "of an earlier run")
+
+    def test_a_device_is_written_itself(self):
+        for option in ("--stats", "--out"):
+            link = self.folder / "m.csv"
+            link.symlink_to("/dev/full")
+            result = weft("run", "flag", "--frames", 3, "--level", 4, option, link)
+            self.assertEqual((result.returncode, result.stderr),
+                             (1, f"weft: {link}: writing failed: No space left on device\n"))
+            link.unlink()
+            link.symlink_to("/dev/null")
+            self.run_ok("flag", "--frames", 3, "--level", 4, option, link)
+            self.assertTrue(link.is_symlink())
+            link.unlink()
+
+    def test_a_file_that_may_not_be_written_stays(self):
+        path = self.folder / "m.csv"
+        path.write_text("of an earlier run")
+        path.chmod(0o444)
+        if os.access(path, os.W_OK):
+            self.skipTest("root may write everything")
+        result = weft("run", "flag", "--frames", 1, "--level", 4, "--out", path)
+        self.assertEqual((result.returncode, result.stderr), (1, f"weft: {path}: cannot be written: Permission denied\n"))
+
+    def test_standard_output_that_is_full_is_1(self):
+        for arguments in (("run", "flag", "--frames", 1, "--level", 4, "--hash"), ("check", "flag"), ("check", "--list"),
+                          ("cost", "swing", *Cost.QUICK), ("version",), ("--help",), ("run", "--help")):
+            with self.subTest(arguments), open("/dev/full", "w") as full:
+                result = subprocess.run([WEFT, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                        timeout=LIMIT_S)
+                self.assertEqual((result.returncode, result.stderr),
+                                 (1, "weft: standard output: writing failed: No space left on device\n"))
+
+    def test_a_reader_that_goes_ends_it_as_unix_tools_end(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        result = subprocess.run([WEFT, "check", "--list"], stdout=writing, stderr=subprocess.PIPE, timeout=LIMIT_S)
+        os.close(writing)
+        self.assertEqual((result.returncode, result.stderr), (-signal.SIGPIPE, b""))
 
 
 class Set(CliTest):

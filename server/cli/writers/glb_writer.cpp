@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include "cli/writers/output_file.h"
 #include "cli/writers/writers.h"
@@ -18,7 +17,7 @@ constexpr std::size_t kMaxFloats = std::size_t{128} << 20;
 
 class GlbWriter final : public MeshWriter {
  public:
-  explicit GlbWriter(std::string path) : path_(std::move(path)) { OutputFile(path_).close(); }
+  explicit GlbWriter(const std::string& path) : path_(path), file_(path) {}
 
   int max_frames() const override { return kMaxFrames; }
 
@@ -46,9 +45,8 @@ class GlbWriter final : public MeshWriter {
       add_mesh(model);
       if (frames_.size() > 1) add_animation(model);
     }
-    if (!tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path_, true, true, false, true)) {
-      throw std::runtime_error(path_ + ": writing failed");
-    }
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, file_.stream(), false, true);
+    file_.close();
   }
 
  private:
@@ -168,6 +166,7 @@ class GlbWriter final : public MeshWriter {
   }
 
   std::string path_;
+  OutputFile file_;
   int rows_ = 0, cols_ = 0;
   std::vector<MeshFrame> frames_;
 };

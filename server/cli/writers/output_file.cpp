@@ -1,13 +1,16 @@
 #include "cli/writers/output_file.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
-#include <utility>
+#include <system_error>
 
 namespace weft::cli {
 namespace {
@@ -24,14 +27,34 @@ void append_word(std::string& bytes, std::uint32_t word) {
     bytes += static_cast<char>(static_cast<unsigned char>(word >> shift));
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
 }  // namespace
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)), stream_(path_, std::ios::binary) {
-  if (!stream_) throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_type present = fs::symlink_status(path_, error).type();
+  if (present == fs::file_type::not_found || present == fs::file_type::regular) {
+    part_ = path + ".part";
+    // Putting one file in another's place asks for no right to write that one.
+    if (present == fs::file_type::regular && access(path_.c_str(), W_OK) != 0) refuse(path_);
+  }
+  stream_.open(part_.empty() ? path_ : part_, std::ios::binary);
+  if (!stream_) refuse(path_);
+}
+
+OutputFile::~OutputFile() {
+  if (!stream_.is_open()) return;
+  stream_.close();
+  discard();
 }
 
 void OutputFile::write(std::string_view bytes) {
   stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) fail();
 }
 
 void OutputFile::patch(std::streamoff offset, std::string_view bytes) {
@@ -42,7 +65,22 @@ void OutputFile::patch(std::streamoff offset, std::string_view bytes) {
 
 void OutputFile::close() {
   stream_.close();
-  if (!stream_) throw std::runtime_error(path_ + ": writing failed: " + std::strerror(errno));
+  const bool good = stream_ && (part_.empty() || std::rename(part_.c_str(), path_.c_str()) == 0);
+  if (good) return;
+  const int reason = errno;
+  discard();
+  errno = reason;
+  fail();
+}
+
+void OutputFile::discard() const {
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+}
+
+void OutputFile::fail() const {
+  const std::string reason = errno != 0 ? std::strerror(errno) : "the reason is not known";
+  throw std::runtime_error(path_.string() + ": writing failed: " + reason);
 }
 
 void append_number(std::string& text, float value) { append_shortest(text, value); }

@@ -1,24 +1,39 @@
 #pragma once
-/// A file that says so when it could not be written.
+/// A file that is whole or not there, and says so when it could not be written.
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 
 namespace weft::cli {
 
+/// Written beside its place, as PATH.part, and put there by close(): what is at `path` is never a part of a
+/// file, and what was there stays until then. A link, a pipe or a device is written itself.
 class OutputFile {
  public:
   /// Throws std::runtime_error, with the path and the reason, if it cannot be created.
-  explicit OutputFile(std::string path);
+  explicit OutputFile(const std::string& path);
+  OutputFile(OutputFile&&) = default;
+  OutputFile& operator=(OutputFile&&) = delete;
+  /// Without close() nothing is left.
+  ~OutputFile();
 
+  /// Throws std::runtime_error if it, or anything before, failed (a full disk).
   void write(std::string_view bytes);
-  /// Replaces bytes already written, from `offset`.
+  /// Replaces bytes already written, from `offset`; throws as write().
   void patch(std::streamoff offset, std::string_view bytes);
-  /// Flushes and closes; throws std::runtime_error if anything since the start failed (a full disk).
+  /// For a library that writes by itself; what fails is found by close().
+  std::ostream& stream() { return stream_; }
+  /// Flushes, closes and puts the file in its place; throws std::runtime_error if anything since the start
+  /// failed.
   void close();
 
  private:
-  std::string path_;
+  [[noreturn]] void fail() const;
+  void discard() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path part_;  ///< empty: `path_` itself is written
   std::ofstream stream_;
 };
 
