@@ -4,7 +4,7 @@ const kFieldOfView = 42;  // degrees
 
 /**
  * @typedef {object} Settings
- * @property {string} server address of the service, "ws://host:port" without a path
+ * @property {string} server address of the service, "ws://host:port" or "ws://host/path", without a slash at its end
  * @property {string|null} scene name of the scene; null: the first one the service lists
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
@@ -39,9 +39,9 @@ function fieldOfView(given) {
   return degrees >= 20 && degrees <= 100 ? degrees : kFieldOfView;
 }
 
-/** The service's address as ws: or wss:, without a trailing slash; the page's own host when none is given. */
+/** The service's address as ws: or wss:, without a trailing slash; the page's own folder when none is given. */
 function serverAddress(given, address) {
-  const url = new URL(given || address.origin, address);
+  const url = new URL(given || '.', address);
   if (url.protocol === 'http:') url.protocol = 'ws:';
   if (url.protocol === 'https:') url.protocol = 'wss:';
   if (url.protocol !== 'ws:' && url.protocol !== 'wss:') {

@@ -232,11 +232,14 @@ test('wind by heading and upward angle, and back', () => {
   assert.deepEqual(diagonal, {heading: 45, tilt: 0});
 });
 
-test('the address of the service: the page’s own host, or the parameter', () => {
+test('the address of the service: the page’s own folder, or the parameter', () => {
   const read = (text) => readSettings(new URL(text), 3);
   assert.equal(read('http://a.example:8080/').server, 'ws://a.example:8080');
   assert.equal(read('https://a.example/').server, 'wss://a.example');
+  assert.equal(read('https://a.example/cloth/?scene=flag').server, 'wss://a.example/cloth');
+  assert.equal(read('https://a.example/cloth/index.html').server, 'wss://a.example/cloth');
   assert.equal(read('http://a/?server=ws://b:9000').server, 'ws://b:9000');
+  assert.equal(read('http://a/cloth/?server=ws://b:9000').server, 'ws://b:9000');
   assert.equal(read('http://a/?server=https://b/weft/').server, 'wss://b/weft');
   assert.throws(() => read('http://a/?server=ftp://b'), /not an address like ws/);
 });

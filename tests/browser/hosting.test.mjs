@@ -1,16 +1,18 @@
-// The page away from the server, and with an address that leads nowhere.
+// The page away from the server, behind a proxy, and with an address that leads nowhere.
 import assert from 'node:assert/strict';
-import {createServer} from 'node:http';
+import {createServer, request as httpRequest} from 'node:http';
+import {connect} from 'node:net';
 import {readFile} from 'node:fs/promises';
 import {extname, join, normalize} from 'node:path';
 import {after, before, test} from 'node:test';
-import {openPage, startServer, stats, until} from './harness.mjs';
+import {setTimeout as sleep} from 'node:timers/promises';
+import {kPatienceMs, openPage, startServer, stats, until} from './harness.mjs';
 
 const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml'};
 
 let service, host, site;
 before(async () => {
-  service = await startServer(['flag', 'curtain']);
+  service = await startServer(['flag', 'curtain', 'round-table']);
   host = createServer(async (request, response) => {
     const path = new URL(request.url, 'http://host').pathname;
     const file = join(process.env.WEFT_PAGE, normalize(path === '/' ? '/index.html' : path));
@@ -36,6 +38,60 @@ test('any static host will do, the service is a parameter', async () => {
   for (const origin of origins) assert.ok([site, service.address].includes(origin), `a request to ${origin}`);
   assert.deepEqual(witness.errors, []);
   await page.close();
+});
+
+/**
+ * A proxy that has the service below `path`, and nothing else.
+ * @returns {Promise<{address: string, asked: string[], stop: () => void}>} `asked`: the path of each request
+ */
+async function startProxy(path) {
+  const asked = [];
+  const onward = ({url, headers}) => {
+    asked.push(url);
+    return url.startsWith(path) && {host: '127.0.0.1', port: service.port, path: url.slice(path.length - 1), headers};
+  };
+  const proxy = createServer((request, response) => {
+    const there = onward(request);
+    if (!there) return response.writeHead(404).end();
+    httpRequest(there, (answer) => {
+      response.writeHead(answer.statusCode, answer.headers);
+      answer.pipe(response);
+    }).end();
+  });
+  proxy.on('upgrade', (request, socket) => {
+    const there = onward(request);
+    if (!there) return socket.end('HTTP/1.1 404 Not Found\r\n\r\n');
+    const lines = Object.entries(there.headers).map(([name, value]) => `${name}: ${value}\r\n`);
+    const service = connect(there.port, there.host);
+    service.write(`GET ${there.path} HTTP/1.1\r\n${lines.join('')}\r\n`);
+    for (const [from, to] of [[socket, service], [service, socket]]) from.on('error', () => to.destroy()).pipe(to);
+  });
+  await new Promise((resolve) => proxy.listen(0, '127.0.0.1', resolve));
+  return {
+    address: `http://127.0.0.1:${proxy.address().port}${path}`,
+    asked,
+    stop: () => {
+      proxy.closeAllConnections();
+      proxy.close();
+    },
+  };
+}
+
+test('behind a proxy the page asks for everything below its own path', async () => {
+  const proxy = await startProxy('/cloth/');
+  const {page, witness} = await openPage(`${proxy.address}?quality=low`);
+  await until(page, () => weft.stats.connected && weft.stats.frames > 3);
+  assert.equal((await stats(page)).scene, 'flag');  // the first of the list
+  await page.selectOption('#scene', 'round-table');
+  await until(page, () => weft.stats.connected && weft.stats.scene === 'round-table' && weft.stats.cloths.length > 0);
+  for (let tries = 0; !proxy.asked.some((path) => path.includes('/meshes/')) && tries < kPatienceMs / 100; ++tries) await sleep(100);
+  await page.close();
+  proxy.stop();
+  for (const path of ['main.js', 'three/three.module.js', 'worker.js', 'v1/scenes', 'v1/scenes/flag', 'v1/scenes/round-table/meshes/0']) {
+    assert.ok(proxy.asked.includes(`/cloth/${path}`), `no request for ${path} in ${proxy.asked}`);
+  }
+  assert.deepEqual(proxy.asked.filter((path) => !path.startsWith('/cloth/')), []);
+  assert.deepEqual(witness.errors, []);
 });
 
 test('without a scene it is the service’s first one', async () => {
