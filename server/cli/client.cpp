@@ -28,6 +28,7 @@ using nlohmann::json;
 constexpr auto kConnectTime = std::chrono::seconds(5);
 /// How often the loop looks whether it was interrupted.
 constexpr auto kPoll = std::chrono::milliseconds(200);
+const std::string kScenes = "v1/scenes/";  // below the server's path
 
 struct ClientOptions {
   std::string url;
@@ -91,22 +92,31 @@ class Conversation {
       command(protocol::BallAdd{.position = vector_of(options_.ball), .radius = options_.ball[3]});
       if (!options_.velocity.empty()) throws_when_added_ = last_id_;
     }
-    while (!finished()) {
-      send_due();
-      if (auto message = client_.receive(next_event())) take(*message);
+    try {
+      while (!finished()) {
+        send_due();
+        if (auto message = client_.receive(next_event())) take(*message);
+      }
+      client_.close();
+    } catch (const net::ConnectionError&) {
+      finish_files();  // what came before is worth keeping
+      throw;
     }
-    client_.close();
-    for (auto& [cloth, writers] : writers_) {
-      for (auto& writer : writers) writer->finish();
-    }
+    finish_files();
     return refused_ ? kFailed : 0;
   }
 
  private:
+  void finish_files() {
+    for (auto& [cloth, writers] : writers_) {
+      for (auto& writer : writers) writer->finish();
+    }
+  }
+
   double elapsed() const { return Seconds(Clock::now() - start_).count(); }
 
   bool finished() const {
-    return interrupted || (options_.frames > 0 && frames_ >= options_.frames) ||
+    return interrupted || std::ferror(stdout) || (options_.frames > 0 && frames_ >= options_.frames) ||
            (options_.seconds > 0 && elapsed() >= options_.seconds);
   }
 
@@ -220,8 +230,15 @@ class Conversation {
   std::map<std::uint32_t, std::vector<std::unique_ptr<MeshWriter>>> writers_;
 };
 
+/// The path that everything of the server at `target` is below, with a slash at its end: of a scene's there,
+/// or of the page's.
+std::string base_path(const std::string& target) {
+  const std::string base = target.substr(0, target.find(kScenes));
+  return base.ends_with('/') ? base : base + '/';
+}
+
 int check_health(net::Url url) {
-  url.target = "/healthz";
+  url.target = base_path(url.target) + "healthz";
   const net::HttpReply reply = net::http_get(url, kConnectTime);
   std::printf("%u %s\n", reply.status, reply.body.c_str());
   return reply.status == 200 && reply.body == "ok" ? 0 : kFailed;
@@ -230,7 +247,7 @@ int check_health(net::Url url) {
 int client(const ClientOptions& options) {
   net::Url url = net::Url::parse(options.url);
   if (options.health) return check_health(url);
-  if (url.target == "/") url.target = "/v1/scenes/" + options.scene;
+  if (url.target.ends_with('/')) url.target += kScenes + options.scene;
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
   return Conversation(options, url).run();
@@ -242,7 +259,10 @@ void add_client(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ClientOptions>();
   CLI::App* command =
       app.add_subcommand("client", "Views and commands a scene of a running server, from a script");
-  command->add_option("URL", options->url, "ws://HOST:PORT/v1/scenes/NAME, or http://HOST:PORT/ with --scene")
+  command
+      ->add_option("URL", options->url,
+                   "ws://HOST:PORT/v1/scenes/NAME, or http://HOST:PORT/ with --scene; behind a proxy, "
+                   "http://HOST/PATH/")
       ->required();
   command->add_option("--scene", options->scene, "Scene to join if the URL names none")->default_val("flag");
   auto* camera =

@@ -1,8 +1,10 @@
 """`weft client` against `weft serve`."""
 import csv
 import json
+import os
 import pathlib
 import re
+import resource
 import signal
 import subprocess
 import tempfile
@@ -24,8 +26,9 @@ class Client(unittest.TestCase):
                               capture_output=True, text=True, timeout=GENEROUS)
 
     def test_health(self):
-        done = self.client("--health", url=f"http://127.0.0.1:{self.server.port}/")
-        self.assertEqual((done.returncode, done.stdout), (0, "200 ok\n"))
+        for url in [f"http://127.0.0.1:{self.server.port}/", f"http://127.0.0.1:{self.server.port}", self.server.url()]:
+            done = self.client("--health", url=url)
+            self.assertEqual((done.returncode, done.stdout), (0, "200 ok\n"))
 
     def test_prints_a_line_for_each_frame(self):
         done = self.client("--camera", 12, "--frames", 20)
@@ -67,6 +70,27 @@ class Client(unittest.TestCase):
             self.assertEqual((path / "seen.pc2").read_bytes()[:11], b"POINTCACHE2")
             self.assertEqual(len(list(path.glob("seen*.obj"))), len(frames))
 
+    def test_recordings_that_cannot_be_written_are_1(self):
+        with tempfile.TemporaryDirectory() as directory:
+            for name in ["seen.csv", "seen.obj", "seen.glb", "seen.pc2"]:
+                with self.subTest(name):
+                    # Files of at most 4 KiB stand for a full disk.
+                    done = subprocess.run([BINARY, "client", self.server.url(), "--frames", "3", "--quiet",
+                                           "--out", f"{directory}/{name}"], capture_output=True, text=True, timeout=GENEROUS,
+                                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)),
+                                          restore_signals=False)  # Python ignores SIGXFSZ
+                    self.assertEqual(done.returncode, 1)
+                    self.assertRegex(done.stderr, r"\Aweft: \S+/seen\S+: writing failed: File too large\n\Z")
+                    self.assertEqual(os.listdir(directory), [])
+
+    def test_output_that_cannot_be_written_ends_it(self):
+        with open("/dev/full", "w") as full:
+            for more in [[], ["--health"]]:
+                done = subprocess.run([BINARY, "client", self.server.url(), *more], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      timeout=GENEROUS)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, r"\Aweft: standard output: writing failed.*\n\Z")
+
     def test_script(self):
         with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as script:
             script.write('{"at": 0.3, "op": "camera", "distance": 0.5}\n'
@@ -86,6 +110,13 @@ class Client(unittest.TestCase):
         done = self.client("--scene", "still", "--wind", "1,0,0,5", "--frames", 20, url=f"http://127.0.0.1:{self.server.port}/")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(json.loads(done.stderr)["code"], "unavailable")
+
+    def test_behind_a_proxy_all_is_below_its_path(self):
+        # The server has nothing there, and says so.
+        for more, target in [(["--health"], "/cloth/"), (["--health"], "/cloth/v1/scenes/hung"), (["--frames", 1], "/cloth/")]:
+            done = self.client(*more, url=f"http://127.0.0.1:{self.server.port}{target}")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("404 not found", done.stdout + done.stderr)
 
     def test_refusals_and_missing_servers(self):
         for arguments, words in [
