@@ -1,7 +1,10 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -62,7 +65,19 @@ bool load_scenes(const ServeOptions& options, host::Host& host) {
   return good;
 }
 
+/// For people and scripts. If nobody reads it, or the disk is full, the server serves all the same.
+void print_address(const net::Server& server) {
+  std::printf("Weft is at %s\n", server.address().c_str());
+  if (std::fflush(stdout) != 0) {
+    spdlog::warn("standard output: {}", std::strerror(errno));
+    std::clearerr(stdout);
+  }
+}
+
 int serve(ServeOptions options) {
+  // A reader of the log that goes away, or a terminal that is closed, does not end what others watch.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGHUP, SIG_IGN);
   // Standard output has the address and nothing else, so that a script can read it.
   spdlog::set_default_logger(spdlog::stderr_color_mt("weft"));
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
@@ -77,8 +92,7 @@ int serve(ServeOptions options) {
   if (options.server.web.empty())
     spdlog::warn("no page found beside the executable: only scenes are served (--web)");
   spdlog::info("{} scenes, page {}", host.scenes().size(), options.server.web.string());
-  std::printf("Weft is at %s\n", server.address().c_str());
-  std::fflush(stdout);
+  print_address(server);
   server.run();
   spdlog::info("stopped");
   return 0;
@@ -106,6 +120,24 @@ void add_serve(CLI::App& app, int& exit_code) {
   command->add_option("--viewers", options->limits.viewers, "Viewers that a scene may have at a time")
       ->capture_default_str()
       ->check(CLI::Range(1, static_cast<int>(options->server.max_connections)));
+  command
+      ->add_option(
+          "--host-name", options->server.names,
+          "Name that requests may call this server by (their Host header) besides localhost, --host and "
+          "addresses, as weft.example; * allows all; may be given several times")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--connections", options->server.max_connections,
+                   "Connections of any kind at a time; more are refused with 503")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--connections-per-address", options->server.max_connections_per_address,
+          "Those of one IPv4 address, or one IPv6 /64 network; more are refused with 429. 0: no limit, as "
+          "behind a proxy, through which all come from one address")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
   command
       ->add_option("--set", options->overrides,
                    "POINTER=VALUE changes a value of every scene, as /wind/speed=8")

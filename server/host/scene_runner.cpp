@@ -34,6 +34,11 @@ SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
 
 SceneRunner::~SceneRunner() = default;
 
+Clock::duration SceneRunner::busy_for() const {
+  const Clock::rep since = busy_since_;
+  return since == 0 ? Clock::duration(0) : Clock::now().time_since_epoch() - Clock::duration(since);
+}
+
 bool SceneRunner::reserve() {
   int seated = viewers_;
   while (seated < max_viewers_) {
@@ -68,13 +73,16 @@ void SceneRunner::run(const std::stop_token& stop) {
   const Interruptible interruptible(&stop);
   try {
     while (!stop.stop_requested()) {
-      for (Task& task : wait_for_work(stop)) carry_out(task);
+      std::vector<Task> tasks = wait_for_work(stop);
+      busy_since_ = Clock::now().time_since_epoch().count();
+      for (Task& task : tasks) carry_out(task);
       study_if_wanted();
       const bool stepped = step_if_due();
       // Before the frame goes out: who has seen it must not be told an older step.
       frame_ = live_.simulation().step_count();
       publish_if_due(stepped);
       send_stats_if_due();
+      busy_since_ = 0;
     }
   } catch (const Interrupted&) {  // the scene ends in the midst of a step
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,8 @@ class SceneRunner {
 
   /// The thread ends soon, within a step. Nothing is stepped or sent from then on.
   void request_stop() { thread_.request_stop(); }
+  /// For how long its thread has been busy without coming to a step boundary; 0 while it waits for the next.
+  std::chrono::steady_clock::duration busy_for() const;
 
   /// Takes one of the scene's places for viewers; false if all are taken.
   bool reserve();
@@ -101,6 +104,7 @@ class SceneRunner {
   const std::vector<std::shared_ptr<const std::string>> meshes_;  ///< of the obstacles; nullptr for others
   std::atomic<int> viewers_{0};
   std::atomic<std::uint64_t> frame_{0}, encodes_{0};
+  std::atomic<std::chrono::steady_clock::rep> busy_since_{0};  ///< 0: it waits
 
   std::mutex mutex_;
   std::condition_variable_any work_;

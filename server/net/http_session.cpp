@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <boost/asio/dispatch.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -12,9 +13,12 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
 #include <chrono>
+#include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "net/origin.h"
+#include "net/request_rules.h"
 #include "net/websocket_session.h"
 
 namespace weft::net {
@@ -28,8 +32,11 @@ namespace {
 
 constexpr auto kRequestTime = std::chrono::seconds(10);   // for the whole header, and between requests
 constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
+/// A scene that has been at one step for so long is reported.
+constexpr std::chrono::duration<double> kStuckTime{5.0};
+constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
-constexpr std::string_view kScenes = "/v1/scenes", kMeshes = "/meshes/";
+constexpr std::string_view kHealth = "/healthz", kScenes = "/v1/scenes", kMeshes = "/meshes/";
 
 /// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
 /// parameter).
@@ -56,8 +63,8 @@ Answer plain(http::status status, std::string text) {
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(Context& context, tcp::socket socket)
-      : context_(context), count_(context), stream_(std::move(socket)) {}
+  HttpSession(Context& context, ConnectionPool::Place place, tcp::socket socket)
+      : context_(context), place_(std::move(place)), stream_(std::move(socket)) {}
 
   void read() {
     // A parser reads one message.
@@ -68,6 +75,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         stream_, buffer_, *parser_,
         [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
   }
+
+  /// Ends it at once, whatever it does.
+  void cut() { stream_.close(); }
 
  private:
   void on_read(error_code error) {
@@ -85,15 +95,25 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void respond() {
+    join_lists(parser_->get());
     const HttpRequest& request = parser_->get();
     // A body is of no use to any request here; it is not read, so the connection ends with the answer.
-    const bool last = !request.keep_alive() || !parser_->is_done();
+    const bool last = !request.keep_alive() || !parser_->is_done() || place_.refusal() != NoPlace::none;
+    if (const std::string fault = header_fault(request); !fault.empty())
+      return write(plain(http::status::bad_request, fault + "\n"), true);
+    if (request.count(http::field::host) > 0 &&
+        !host_allowed(view(request[http::field::host]), context_.options.names)) {
+      return write(plain(http::status::misdirected_request,
+                         "this server does not know the name in Host as its own (--host-name)\n"),
+                   last);
+    }
     const std::string_view target = view(request.target());
     const std::string_view path = target.substr(0, target.find('?'));
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
       return write(plain(http::status::method_not_allowed, "only GET and HEAD\n"), last);
     }
-    if (path == "/healthz") return write(plain(http::status::ok, "ok"), last);
+    if (path == kHealth) return write(health(), last);
+    if (place_.refusal() != NoPlace::none) return write(no_place(), last);
     if (path == kScenes || path == "/v1/scenes/") {
       const nlohmann::json list = {{"scenes", context_.host.list()}};
       Answer answer = plain(http::status::ok, list.dump());
@@ -120,6 +140,31 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
           last);
   }
 
+  /// Whether every scene steps in time; if not, which do not.
+  Answer health() const {
+    std::string late;
+    for (const auto& scene : context_.host.scenes()) {
+      const std::chrono::duration<double> busy = scene->busy_for();
+      if (busy < kStuckTime) continue;
+      char seconds[32];
+      std::snprintf(seconds, sizeof seconds, "%.1f", busy.count());
+      late += "scene " + scene->name() + ": no step for " + seconds + " s\n";
+    }
+    return late.empty() ? plain(http::status::ok, "ok")
+                        : plain(http::status::service_unavailable, std::move(late));
+  }
+
+  Answer no_place() const {
+    if (place_.refusal() == NoPlace::all_taken)
+      return plain(http::status::service_unavailable,
+                   std::to_string(context_.options.max_connections) +
+                       " connections are open, the most allowed (--connections)\n");
+    return plain(http::status::too_many_requests,
+                 std::to_string(context_.options.max_connections_per_address) +
+                     " connections from your address are open, the most allowed "
+                     "(--connections-per-address)\n");
+  }
+
   /// The mesh that GET /v1/scenes/NAME/meshes/OBSTACLE asks for; nullptr if there is none.
   std::shared_ptr<const std::string> find_mesh(std::string_view name, std::string_view number) const {
     const host::SceneRunner* scene = context_.host.find(name);
@@ -142,9 +187,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (!beast::websocket::is_upgrade(request)) {
       return write(plain(http::status::upgrade_required, "a scene is a WebSocket\n"), last);
     }
-    if (!http::token_list(request[http::field::sec_websocket_protocol]).exists(protocol::kSubprotocol)) {
-      return write(plain(http::status::bad_request, "Sec-WebSocket-Protocol must offer weft.v1\n"), last);
-    }
+    if (request[http::field::sec_websocket_version] != kWebsocketVersion)
+      return write(plain(http::status::upgrade_required, "Sec-WebSocket-Version must be 13\n"), last);
+    if (const std::string fault = upgrade_fault(request); !fault.empty())
+      return write(plain(http::status::bad_request, fault + "\n"), last);
     if (buffer_.size() > 0) {
       return write(plain(http::status::bad_request, "nothing may be sent before the upgrade is answered\n"),
                    true);
@@ -153,7 +199,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
                    last);
     }
-    start_websocket_session(context_, std::move(count_), std::move(stream_), request, *scene);
+    start_websocket_session(context_, std::move(place_), std::move(stream_), request, *scene);
   }
 
   void write(const Answer& answer, bool last) {
@@ -167,7 +213,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set(http::field::cache_control, answer.etag.empty() ? "no-store" : "no-cache");
     if (!answer.etag.empty()) response_->set(http::field::etag, answer.etag);
     if (answer.status == http::status::method_not_allowed) response_->set(http::field::allow, "GET, HEAD");
-    if (answer.status == http::status::upgrade_required) response_->set(http::field::upgrade, "websocket");
+    if (answer.status == http::status::upgrade_required) {
+      response_->set(http::field::upgrade, "websocket");
+      response_->set(http::field::sec_websocket_version, kWebsocketVersion);
+    }
+    if (answer.status == http::status::service_unavailable ||
+        answer.status == http::status::too_many_requests)
+      response_->set(http::field::retry_after, kRetrySeconds);
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");
     response_->set("Content-Security-Policy", kContentPolicy);
@@ -196,7 +248,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   Context& context_;
-  ConnectionCount count_;
+  ConnectionPool::Place place_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -204,8 +256,35 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::optional<http::response<http::span_body<const char>>> response_;
 };
 
+namespace {
+
+/// What counts as one peer: an IPv4 address, or the /64 network of an IPv6 address, in which one has as many
+/// addresses as one likes.
+std::string peer_of(const tcp::socket& socket) {
+  namespace ip = boost::asio::ip;
+  error_code error;
+  const ip::address address = socket.remote_endpoint(error).address();
+  if (error) return {};  // it has gone already
+  if (address.is_v4()) return address.to_string();
+  const ip::address_v6 v6 = address.to_v6();
+  if (v6.is_v4_mapped()) return ip::make_address_v4(ip::v4_mapped, v6).to_string();
+  ip::address_v6::bytes_type network = v6.to_bytes();
+  std::fill(network.begin() + 8, network.end(), std::uint8_t{0});
+  return ip::address_v6(network).to_string();
+}
+
+}  // namespace
+
 void start_http_session(Context& context, tcp::socket socket) {
-  std::make_shared<HttpSession>(context, std::move(socket))->read();
+  auto place = context.connections.take(peer_of(socket));
+  const bool extra = place.refusal() != NoPlace::none;
+  const auto session = std::make_shared<HttpSession>(context, std::move(place), std::move(socket));
+  if (extra) {
+    auto& slot = context.extra[context.next_extra++ % context.extra.size()];
+    if (const auto oldest = slot.lock()) oldest->cut();
+    slot = session;
+  }
+  session->read();
 }
 
 }  // namespace weft::net

@@ -1,5 +1,7 @@
 #include "net/origin.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -27,7 +29,31 @@ std::string_view without_port(std::string_view authority) {
   return authority.substr(0, authority.find(':'));
 }
 
+/// "[::1]", "192.168.0.7".
+bool is_address(std::string_view name) {
+  in6_addr parsed;
+  if (name.starts_with('[') && name.ends_with(']'))
+    return inet_pton(AF_INET6, std::string(name.substr(1, name.size() - 2)).c_str(), &parsed) == 1;
+  return inet_pton(AF_INET, std::string(name).c_str(), &parsed) == 1;
+}
+
+bool is_localhost(std::string_view name) {
+  constexpr std::string_view kLocalhost = "localhost";
+  if (name.size() < kLocalhost.size()) return false;
+  const std::size_t begin = name.size() - kLocalhost.size();
+  return same_ignoring_case(name.substr(begin), kLocalhost) && (begin == 0 || name[begin - 1] == '.');
+}
+
 }  // namespace
+
+bool host_allowed(std::string_view host, const std::vector<std::string>& names) {
+  std::string_view name = without_port(host);
+  if (name.ends_with('.')) name.remove_suffix(1);
+  return is_address(name) || is_localhost(name) ||
+         std::any_of(names.begin(), names.end(), [&](const std::string& known) {
+           return known == "*" || same_ignoring_case(known, name);
+         });
+}
 
 bool origin_allowed(std::string_view origin, std::string_view host, const std::vector<std::string>& allowed) {
   if (origin.empty()) return true;

@@ -1,7 +1,9 @@
 #include "net/server.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -27,10 +29,33 @@ constexpr auto kFarewellTime = std::chrono::seconds(3);
 /// After accept() failed, most often for want of file descriptors.
 constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
+/// Descriptors that are no connection's: standard streams, event loop, listener, files being read.
+constexpr std::size_t kOtherDescriptors = 32;
+
+/// `options` with the name it listens at as one of its own, and with no more connections than the process may
+/// have descriptors, once it may have as many as it is allowed to ask for.
+ServerOptions within_means(ServerOptions options) {
+  options.names.push_back(options.host);
+  constexpr std::size_t kOthers = kExtraConnections + kOtherDescriptors;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return options;
+  const rlim_t wanted = options.max_connections + kOthers;
+  if (limit.rlim_cur < wanted) {
+    limit.rlim_cur = std::min(wanted, limit.rlim_max);
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  if (limit.rlim_cur < wanted) {
+    options.max_connections = limit.rlim_cur > kOthers ? limit.rlim_cur - kOthers : 1;
+    spdlog::warn("at most {} connections: the process may have {} descriptors (ulimit -n)",
+                 options.max_connections, limit.rlim_cur);
+  }
+  return options;
+}
+
 }  // namespace
 
 struct Server::Impl {
-  Impl(host::Host& host, ServerOptions options) : context(host, std::move(options)) {}
+  Impl(host::Host& host, ServerOptions options) : context(host, within_means(std::move(options))) {}
 
   void listen();
   void accept();
@@ -74,12 +99,7 @@ void Server::Impl::accept() {
       });
       return;
     }
-    if (context.connections < context.options.max_connections) {
-      start_http_session(context, std::move(socket));
-    } else {
-      if (const auto more = context.refusals.admit(std::chrono::steady_clock::now()))
-        spdlog::warn("a connection was refused: {} are open{}", context.connections, *more);
-    }
+    start_http_session(context, std::move(socket));
     accept();
   });
 }

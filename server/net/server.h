@@ -14,8 +14,12 @@ struct ServerOptions {
   std::uint16_t port = 8080;       ///< 0: any free one
   std::filesystem::path web;       ///< the page's directory; empty: no page
   std::vector<std::string> allowed_origins;
+  /// Names that a request may call this server by, besides localhost, `host` and addresses.
+  std::vector<std::string> names;
   std::string version;                 ///< told in `welcome`: "0.1.0"
-  std::size_t max_connections = 4096;  ///< of any kind; more are closed at once
+  std::size_t max_connections = 4096;  ///< of any kind; more are refused
+  /// Of one address, or of one /64 network of IPv6; more are refused. 0: no limit.
+  std::size_t max_connections_per_address = 128;
 };
 
 /// PROTOCOL.md on one TCP port: the page, the health check, the list of scenes, and the scenes' WebSockets.

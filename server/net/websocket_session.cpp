@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/connection.h"
+#include "net/gated_stream.h"
 
 namespace weft::net {
 
@@ -46,11 +47,11 @@ void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
 /// has for it, one message at a time.
 class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
  public:
-  WebsocketSession(Context& context, ConnectionCount count, beast::tcp_stream stream,
+  WebsocketSession(Context& context, ConnectionPool::Place place, beast::tcp_stream stream,
                    host::SceneRunner& scene)
       : context_(context),
-        count_(std::move(count)),
-        ws_(std::move(stream)),
+        place_(std::move(place)),
+        ws_(std::move(stream), context.host.limits().messages_per_second),
         read_pause_(ws_.get_executor()),
         close_deadline_(ws_.get_executor()),
         connection_(context.host, scene, context.options.version) {
@@ -194,8 +195,8 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   }
 
   Context& context_;
-  ConnectionCount count_;
-  websocket::stream<beast::tcp_stream> ws_;
+  ConnectionPool::Place place_;
+  websocket::stream<GatedStream> ws_;
   asio::steady_timer read_pause_;
   asio::steady_timer close_deadline_;
   std::string peer_;
@@ -206,9 +207,9 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   host::Connection connection_;
 };
 
-void start_websocket_session(Context& context, ConnectionCount count, beast::tcp_stream stream,
+void start_websocket_session(Context& context, ConnectionPool::Place place, beast::tcp_stream stream,
                              const HttpRequest& request, host::SceneRunner& scene) {
-  std::make_shared<WebsocketSession>(context, std::move(count), std::move(stream), scene)->start(request);
+  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), scene)->start(request);
 }
 
 void end_websocket_session(WebsocketSession& session) {

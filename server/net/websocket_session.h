@@ -2,17 +2,14 @@
 #include <utility>
 // Boost 1.74 needs <utility> before it.
 #include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http/empty_body.hpp>
-#include <boost/beast/http/message.hpp>
 
 #include "net/context.h"
+#include "net/request_rules.h"
 
 namespace weft::net {
 
-using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
-
 /// Makes the connection a WebSocket of `scene`, where a place is reserved for it.
-void start_websocket_session(Context& context, ConnectionCount count, boost::beast::tcp_stream stream,
+void start_websocket_session(Context& context, ConnectionPool::Place place, boost::beast::tcp_stream stream,
                              const HttpRequest& request, host::SceneRunner& scene);
 
 /// Tells a viewer that the server stops, and closes with 1001.

@@ -3,7 +3,7 @@ import asyncio
 import json
 import unittest
 
-from serving import GENEROUS, SANITIZED, SCENES, Server, client_frame
+from serving import GENEROUS, SANITIZED, SCENES, Server, client_frame, server_frames
 
 import weft
 import websockets
@@ -16,7 +16,7 @@ def raw(server, scene="hung", **options):
 class Connections(unittest.IsolatedAsyncioTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = Server(SCENES / "hung.json", SCENES / "still.json")
+        cls.server = Server(SCENES / "hung.json", SCENES / "still.json", "--connections-per-address", 0)
         cls.addClassCleanup(cls.server.end)
 
     async def connect(self, scene="hung", **options):
@@ -60,11 +60,52 @@ class Connections(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(received[-4:], b"\x88\x02" + (1007).to_bytes(2, "big"))
 
     def test_frames_before_the_answer_are_400(self):
-        request = (b"GET /v1/scenes/hung HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+        request = (b"GET /v1/scenes/hung HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
                    b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
                    b"Sec-WebSocket-Protocol: weft.v1\r\n\r\n")
         answer = self.server.request(request + client_frame(1, b'{"op":"pause"}'))
         self.assertTrue(answer.startswith(b"HTTP/1.1 400 "), answer[:40])
+
+    def close_after(self, sent):
+        """Code of the server's close after these bytes, and how many pongs came before."""
+        connection, _ = self.server.raw_socket()
+        with connection:
+            try:
+                connection.sendall(sent)
+            except OSError:  # closed while it still sends
+                pass
+            frames = list(server_frames(connection))
+        self.assertEqual(frames[-1][0], 8, "the last frame is no close")
+        return int.from_bytes(frames[-1][1][:2], "big"), sum(opcode == 10 for opcode, _ in frames)
+
+    def test_close_codes_that_may_not_be_sent_are_1002(self):  # RFC 6455, section 7.4
+        for code in [0, 999, 1004, 1005, 1006, 1015, 1016, 2999, 5000, 65535]:
+            with self.subTest(code):
+                self.assertEqual(self.close_after(client_frame(8, code.to_bytes(2, "big") + b"why"))[0], 1002)
+        for code in [1000, 1001, 1011, 3000, 4999]:
+            with self.subTest(code):
+                self.assertEqual(self.close_after(client_frame(8, code.to_bytes(2, "big")))[0], code)
+        self.assertEqual(self.close_after(client_frame(8))[0], 1000)
+
+    def test_floods_of_control_frames_and_fragments_are_1008(self):
+        # 120 at once are allowed, which is told as messages_per_second.
+        opened = client_frame(1, final=False)
+        for name, sent, pongs in [("pings", client_frame(9) * 1000, 120), ("pongs", client_frame(10) * 1000, 0),
+                                  ("empty fragments", opened + client_frame(0, final=False) * 1000, 0),
+                                  ("small fragments", opened + client_frame(0, b"x", final=False) * 1000, 0)]:
+            with self.subTest(name):
+                code, answered = self.close_after(sent)
+                self.assertEqual(code, 1008)
+                self.assertLessEqual(answered, pongs + 12)  # and those of a tenth of a second
+                self.assertGreaterEqual(answered, pongs)
+
+    async def test_ordinary_pings_and_fragments_are_answered(self):
+        async with raw(self.server) as connection:
+            for _ in range(10):
+                await asyncio.wait_for(await connection.ping(), GENEROUS)
+            await connection.send(iter(['{"op":"ping",', '"id":3,', '"t":1}']))  # one message, a fragment each
+            while not isinstance(message := await connection.recv(), str) or json.loads(message)["op"] != "pong":
+                pass
 
     async def test_newest_frame_after_a_stall(self):
         """A viewer that acknowledges nothing for a while is sent nothing, and then the newest."""

@@ -11,7 +11,8 @@ class Http(unittest.TestCase):
     def setUpClass(cls):
         cls.page = cls.enterClassContext(page_directory())
         cls.server = cls.enterClassContext(
-            Server(SCENES / "hung.json", SCENES / "still.json", "--web", cls.page, "--allow-origin", "https://show.example"))
+            Server(SCENES / "hung.json", SCENES / "still.json", "--web", cls.page, "--allow-origin", "https://show.example",
+                   "--host-name", "weft.example", "--host-name", "other.example"))
 
     @classmethod
     def enterClassContext(cls, manager):  # of unittest from Python 3.11 on
@@ -73,7 +74,7 @@ class Http(unittest.TestCase):
                 self.assertEqual(headers["allow"], "GET, HEAD")
 
     def test_a_request_with_a_body_is_answered_and_ended(self):
-        received = self.server.request("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000\r\n\r\nabc")
+        received = self.server.request("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\nabc")
         self.assertTrue(received.startswith(b"HTTP/1.1 405 "), received[:60])
 
     def test_what_is_no_request_is_400(self):
@@ -82,17 +83,39 @@ class Http(unittest.TestCase):
                 self.assertTrue(self.server.request(text).startswith(b"HTTP/1.1 400 "))
 
     def test_a_header_beyond_8_kib_is_431(self):
-        received = self.server.request("GET / HTTP/1.1\r\nHost: x\r\nX: " + "a" * 9000 + "\r\n\r\n")
+        received = self.server.request("GET / HTTP/1.1\r\nHost: localhost\r\nX: " + "a" * 9000 + "\r\n\r\n")
         self.assertTrue(received.startswith(b"HTTP/1.1 431 "), received[:60])
 
+    def test_only_names_of_its_own_are_answered(self):
+        # A page of evil.example whose name is made to resolve to this machine is of the same origin as what it asks for.
+        for target in ["/", "/healthz", "/v1/scenes", "/none"]:
+            for host in ["evil.example", f"evil.example:{self.server.port}", "localhost.evil.example", ""]:
+                with self.subTest(target, host=host):
+                    status, _, body = self.server.get(target, Host=host, Origin=f"http://{host}")
+                    self.assertEqual(status, 421)
+                    self.assertIn(b"--host-name", body)
+        for host in ["localhost", "127.0.0.1", "[::1]:8080", "192.168.0.7", "weft.example:443", "OTHER.example"]:
+            with self.subTest(host):
+                self.assertEqual(self.server.get("/healthz", Host=host)[0], 200)
+
+    def test_headers_that_must_stand_once_are_400(self):
+        for name in ["Host", "Origin"]:
+            with self.subTest(name):
+                status, _, body = self.server.get("/", **{name: ["http://localhost", "http://localhost"]})
+                self.assertEqual(status, 400)
+                self.assertIn(name.encode(), body)
+        for host in [None, "a b", "localhost/", "x@localhost", "localhost, localhost"]:
+            with self.subTest(host):
+                self.assertEqual(self.server.get("/", Host=host)[0], 400)
+
     def test_several_requests_on_one_connection(self):
-        received = self.server.request("GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" * 2 +
-                                       "GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        received = self.server.request("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n" * 2 +
+                                       "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
         self.assertEqual(received.count(b"HTTP/1.1 200 OK"), 3)
 
     def test_one_that_never_ends_its_header_is_cut(self):
         with socket.create_connection(("127.0.0.1", self.server.port), GENEROUS) as slow:
-            slow.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
+            slow.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ")
             self.assertEqual(slow.recv(1), b"")  # after the server's 10 s
 
     # --- The upgrade to a WebSocket ---
@@ -101,9 +124,38 @@ class Http(unittest.TestCase):
         self.assertEqual(self.server.upgrade("/v1/scenes/hung"), 101)
         self.assertEqual(self.server.upgrade("/v1/scenes/hung?x=1", Sec_WebSocket_Protocol="other, weft.v1"), 101)
 
+    def test_lists_may_stand_on_several_lines(self):  # RFC 9110, section 5.3
+        for header, lines in [("Sec_WebSocket_Protocol", ["other", "weft.v1"]), ("Connection", ["keep-alive", "Upgrade"]),
+                              ("Upgrade", ["other/1", "websocket"])]:
+            with self.subTest(header):
+                self.assertEqual(self.server.upgrade("/v1/scenes/hung", **{header: lines}), 101)
+
     def test_upgrade_without_the_subprotocol_is_400(self):
-        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Protocol=None), 400)
-        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Protocol="weft.v2"), 400)
+        # Its case matters: RFC 6455, section 4.1.
+        for offered in [None, "", "weft.v2", "WEFT.V1", "Weft.v1", "weft.v1.x", ["other", "weft.v2"]]:
+            with self.subTest(offered):
+                self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Protocol=offered), 400)
+
+    def test_upgrade_without_a_key_of_16_bytes_is_400(self):  # RFC 6455, section 4.2.1
+        good = "dGhlIHNhbXBsZSBub25jZQ=="
+        for key in [None, "", "x", good[:-1], good[:-2], good + "=", good[:-4] + "====", "A" + good, good[:-6] + "==",
+                    "!" + good[1:], good[:-3] + "R==", "dGhlIHNhbXBsZSBub25jZSEh", [good, good], [good, "AAAAAAAAAAAAAAAAAAAAAA=="]]:
+            with self.subTest(key):
+                self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Key=key), 400)
+
+    def test_upgrade_of_another_version_is_426(self):
+        for version in [None, "8", "130"]:
+            with self.subTest(version):
+                status, headers, _ = self.server.get(
+                    "/v1/scenes/hung", Connection="Upgrade", Upgrade="websocket", Sec_WebSocket_Version=version,
+                    Sec_WebSocket_Key="dGhlIHNhbXBsZSBub25jZQ==", Sec_WebSocket_Protocol="weft.v1")
+                self.assertEqual((status, headers["sec-websocket-version"]), (426, "13"))
+        self.assertEqual(self.server.upgrade("/v1/scenes/hung", Sec_WebSocket_Version=["13", "13"]), 400)
+
+    def test_upgrade_under_a_foreign_name_is_421(self):
+        for host in ["evil.example", f"evil.example:{self.server.port}"]:
+            self.assertEqual(self.server.upgrade("/v1/scenes/hung", Host=host, Origin=f"http://{host}"), 421)
+            self.assertEqual(self.server.upgrade("/v1/scenes/hung", Host=host), 421)
 
     def test_upgrade_of_an_unknown_scene_is_404(self):
         self.assertEqual(self.server.upgrade("/v1/scenes/none"), 404)

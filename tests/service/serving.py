@@ -21,6 +21,15 @@ SANITIZED = bool(os.environ.get("WEFT_SANITIZE"))
 GENEROUS = 30  # s, for what takes milliseconds
 
 
+def head_of(method, target, fields):
+    """The head of a request; a value None leaves a header out, a list gives it a line each."""
+    lines = [f"{method} {target} HTTP/1.1"]
+    for name, value in fields.items():
+        values = value if isinstance(value, list) else [] if value is None else [value]
+        lines += [f"{name.replace('_', '-')}: {each}" for each in values]
+    return ("\r\n".join(lines) + "\r\n\r\n").encode()
+
+
 class Server:
     """`weft serve` on a free port, ended when the test is."""
 
@@ -74,27 +83,22 @@ class Server:
 
     def get(self, target, *, method="GET", **headers):
         """Status, headers (names in lower case) and body of one request."""
-        lines = [f"{method} {target} HTTP/1.1"]
-        fields = {"Host": f"127.0.0.1:{self.port}", "Connection": "close"}
-        fields.update({name.replace("_", "-"): value for name, value in headers.items()})
-        lines += [f"{name}: {value}" for name, value in fields.items() if value is not None]
-        head, _, body = self.request("\r\n".join(lines) + "\r\n\r\n").partition(b"\r\n\r\n")
+        fields = {"Host": f"127.0.0.1:{self.port}", "Connection": "close", **headers}
+        head, _, body = self.request(head_of(method, target, fields)).partition(b"\r\n\r\n")
         status, *fields = head.decode().split("\r\n")
         return int(status.split()[1]), {k.lower(): v for k, _, v in (f.partition(": ") for f in fields)}, body
 
     def raw_socket(self, target="/v1/scenes/hung", receive_buffer=None, **headers):
         """A socket on which an upgrade has been asked for, and the status of the answer. What follows is for the test to read."""
         fields = {"Host": f"127.0.0.1:{self.port}", "Connection": "Upgrade", "Upgrade": "websocket",
-                  "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
-                  "Sec-WebSocket-Protocol": "weft.v1"}
-        fields.update({name.replace("_", "-"): value for name, value in headers.items()})
-        lines = [f"GET {target} HTTP/1.1"] + [f"{name}: {value}" for name, value in fields.items() if value is not None]
+                  "Sec_WebSocket_Version": "13", "Sec_WebSocket_Key": "dGhlIHNhbXBsZSBub25jZQ==",
+                  "Sec_WebSocket_Protocol": "weft.v1", **headers}
         connection = socket.socket()
         connection.settimeout(GENEROUS)
         if receive_buffer:
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
         connection.connect(("127.0.0.1", self.port))
-        connection.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        connection.sendall(head_of("GET", target, fields))
         head = b""
         while not head.endswith(b"\r\n\r\n"):
             head += connection.recv(1)
@@ -124,9 +128,25 @@ class Server:
         self.end()
 
 
-def client_frame(opcode, payload):
+def client_frame(opcode, payload=b"", final=True):
     """A WebSocket frame as a client sends it, with a mask of zeros. Payloads of less than 126 bytes."""
-    return bytes([0x80 | opcode, 0x80 | len(payload)]) + b"\0\0\0\0" + payload
+    return bytes([(0x80 if final else 0) | opcode, 0x80 | len(payload)]) + b"\0\0\0\0" + payload
+
+
+def server_frames(connection):
+    """Opcode and payload of each frame that comes, until the server closes."""
+    received = b""
+    with contextlib.suppress(ConnectionResetError):
+        while chunk := connection.recv(65536):
+            received += chunk
+    at = 0
+    while at < len(received):
+        opcode, length, at = received[at] & 0x0f, received[at + 1], at + 2
+        if length >= 126:
+            size = 2 if length == 126 else 8
+            length, at = int.from_bytes(received[at:at + size], "big"), at + size
+        yield opcode, received[at:at + length]
+        at += length
 
 
 @contextlib.contextmanager

@@ -1,4 +1,6 @@
 """How `weft serve` starts and ends."""
+import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -61,6 +63,25 @@ class Stopping(unittest.IsolatedAsyncioTestCase):
             server.wait_for_log("stopping")
             server.terminate()
             self.assertEqual(server.process.wait(GENEROUS), 128 + signal.SIGTERM)
+
+    async def test_it_goes_on_when_its_terminal_and_the_reader_of_its_log_go(self):
+        # As `weft serve 2>&1 | grep -m 1 Weft` in a terminal that is closed.
+        reading, writing = os.pipe()
+        process = subprocess.Popen([BINARY, "serve", SCENES / "hung.json", "--port", "0"], stdout=writing, stderr=writing)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        os.close(writing)
+        with os.fdopen(reading) as output:
+            port = next(match.group(1) for line in output if (match := re.match(r"Weft is at http://127\.0\.0\.1:(\d+)/", line)))
+        process.send_signal(signal.SIGHUP)
+        # Comings and goings are logged.
+        for _ in range(3):
+            async with await weft.connect(f"ws://127.0.0.1:{port}/v1/scenes/hung", timeout=GENEROUS) as viewer:
+                f = (await viewer.next_frame()).stamp.f
+                await viewer.next_frame(lambda frame: frame.stamp.f > f)
+        self.assertIsNone(process.poll())
+        process.terminate()
+        self.assertEqual(process.wait(STOP_TIME), 0)
 
     async def test_another_can_start_at_the_same_port(self):
         first = self.start(SCENES / "hung.json")

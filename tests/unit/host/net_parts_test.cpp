@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "net/client.h"
+#include "net/connection_pool.h"
 #include "net/log_limiter.h"
 #include "net/origin.h"
 #include "net/static_files.h"
@@ -26,6 +29,52 @@ TEST(LogLimiter, LeavesOutWhatIsTooMuchAndCountsIt) {
   admitted = 0;
   for (int ms = 2001; ms < 60001; ms += 10) admitted += limiter.admit(after(ms)).has_value();
   EXPECT_NEAR(admitted, 58, 1);  // one a second
+}
+
+TEST(HostName, AddressesAndLocalhostAreAlwaysRight) {
+  for (const char* host :
+       {"127.0.0.1", "127.0.0.1:8080", "192.168.0.7:80", "[::1]", "[fe80::1]:8080", "localhost",
+        "localhost:3000", "LocalHost", "localhost.", "cloth.localhost:8080"}) {
+    EXPECT_TRUE(host_allowed(host, {})) << host;
+  }
+}
+
+TEST(HostName, OthersMustBeNamed) {
+  for (const char* host :
+       {"", "evil.example", "evil.example:8080", "localhost.evil.example", "evillocalhost",
+        "127.0.0.1.evil.example", "1.2.3", "[::1].evil.example", "[evil.example]", ":8080"}) {
+    EXPECT_FALSE(host_allowed(host, {})) << host;
+    EXPECT_FALSE(host_allowed(host, {"weft.example"})) << host;
+    EXPECT_TRUE(host_allowed(host, {"*"})) << host;
+  }
+  for (const char* host : {"weft.example", "weft.example:8080", "WEFT.example", "weft.example."}) {
+    EXPECT_TRUE(host_allowed(host, {"other.example", "weft.example"})) << host;
+    EXPECT_FALSE(host_allowed(host, {"other.example"})) << host;
+  }
+}
+
+TEST(ConnectionPool, HasSoManyPlacesAndSoManyForAnAddress) {
+  ConnectionPool pool(3, 2);
+  std::optional<ConnectionPool::Place> first = pool.take("a");
+  const auto second = pool.take("a");
+  EXPECT_EQ(second.refusal(), NoPlace::none);
+  EXPECT_EQ(pool.take("a").refusal(), NoPlace::taken_by_address);
+  const auto third = pool.take("b");
+  EXPECT_EQ(third.refusal(), NoPlace::none);
+  EXPECT_EQ(pool.take("b").refusal(), NoPlace::all_taken);
+  // Moved, as when an HTTP connection becomes a WebSocket, a place is still one.
+  std::optional<ConnectionPool::Place> moved = std::move(*first);
+  first.reset();
+  EXPECT_EQ(pool.take("c").refusal(), NoPlace::all_taken);
+  moved.reset();
+  EXPECT_EQ(pool.take("c").refusal(), NoPlace::none);
+}
+
+TEST(ConnectionPool, WithoutALimitAnAddressMayHaveAll) {
+  ConnectionPool pool(2, 0);
+  const auto first = pool.take("a"), second = pool.take("a");
+  EXPECT_EQ(second.refusal(), NoPlace::none);
+  EXPECT_EQ(pool.take("a").refusal(), NoPlace::all_taken);
 }
 
 TEST(Origin, OwnPagesThisMachineAndScriptsMay) {

@@ -1,0 +1,80 @@
+#pragma once
+#include <utility>
+// Boost 1.74 needs <utility> before it.
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/compose.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket/teardown.hpp>
+
+#include "net/frame_gate.h"
+
+namespace weft::net {
+
+/// A TCP stream whose reads go through a FrameGate: the layer below a boost::beast::websocket::stream.
+class GatedStream {
+ public:
+  using next_layer_type = boost::beast::tcp_stream;
+  using executor_type = next_layer_type::executor_type;
+  using error_code = boost::beast::error_code;
+
+  GatedStream(next_layer_type stream, int frames_per_second)
+      : stream_(std::move(stream)), gate_(frames_per_second, FrameGate::TimePoint::clock::now()) {}
+
+  executor_type get_executor() { return stream_.get_executor(); }
+  next_layer_type& next_layer() { return stream_; }
+  const next_layer_type& next_layer() const { return stream_; }
+
+  template <class Buffers, class Handler>
+  auto async_read_some(const Buffers& buffers, Handler&& handler) {
+    return boost::asio::async_compose<Handler, void(error_code, std::size_t)>(Read<Buffers>{*this, buffers},
+                                                                              handler, stream_);
+  }
+  template <class Buffers, class Handler>
+  auto async_write_some(const Buffers& buffers, Handler&& handler) {
+    return stream_.async_write_some(buffers, std::forward<Handler>(handler));
+  }
+  template <class Handler>
+  friend void async_teardown(boost::beast::role_type role, GatedStream& gated, Handler&& handler) {
+    using boost::beast::websocket::async_teardown;
+    async_teardown(role, gated.stream_, std::forward<Handler>(handler));
+  }
+
+ private:
+  /// Receives until something may be handed on, and hands it on.
+  template <class Buffers>
+  struct Read {
+    GatedStream& gated;
+    Buffers buffers;
+    enum { started, receiving, ready } step = started;
+
+    template <class Operation>
+    void operator()(Operation& operation, error_code error = {}, std::size_t count = 0) {
+      FrameGate& gate = gated.gate_;
+      if (step == receiving) {
+        if (error) return operation.complete(error, 0);
+        gate.received(count, FrameGate::TimePoint::clock::now());
+      }
+      if (gate.ready().empty() && !gate.shut()) {
+        step = receiving;
+        const auto room = gate.room();
+        return gated.stream_.async_read_some(boost::asio::buffer(room.data(), room.size()),
+                                             std::move(operation));
+      }
+      // Never from within the call that starts the operation.
+      if (std::exchange(step, ready) == started)
+        return boost::asio::post(gated.get_executor(), std::move(operation));
+      if (gate.ready().empty()) return operation.complete(boost::asio::error::eof, 0);
+      const auto handed_on =
+          boost::asio::buffer_copy(buffers, boost::asio::buffer(gate.ready().data(), gate.ready().size()));
+      gate.taken(handed_on);
+      operation.complete({}, handed_on);
+    }
+  };
+
+  next_layer_type stream_;
+  FrameGate gate_;
+};
+
+}  // namespace weft::net
