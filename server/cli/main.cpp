@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <iostream>
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
@@ -11,9 +10,8 @@ namespace {
 
 /// What `code` becomes once all of standard output is written: a result that could not be told is none.
 int with_output_written(int code) {
-  std::cout.flush();
   errno = 0;
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
   std::fprintf(stderr, "weft: standard output: writing failed%s%s\n", errno != 0 ? ": " : "",
                errno != 0 ? std::strerror(errno) : "");
   return code != 0 ? code : weft::cli::kFailed;

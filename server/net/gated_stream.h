@@ -1,12 +1,15 @@
 #pragma once
+#include <algorithm>
+#include <chrono>
 #include <utility>
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/compose.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/socket_base.hpp>
+#include <boost/beast/core/role.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/websocket/teardown.hpp>
 
 #include "net/frame_gate.h"
 
@@ -35,13 +38,16 @@ class GatedStream {
   auto async_write_some(const Buffers& buffers, Handler&& handler) {
     return stream_.async_write_some(buffers, std::forward<Handler>(handler));
   }
+  /// Ends the connection after the last that was sent, as a server: the WebSocket calls it.
   template <class Handler>
-  friend void async_teardown(boost::beast::role_type role, GatedStream& gated, Handler&& handler) {
-    using boost::beast::websocket::async_teardown;
-    async_teardown(role, gated.stream_, std::forward<Handler>(handler));
+  friend void async_teardown(boost::beast::role_type, GatedStream& gated, Handler&& handler) {
+    boost::asio::async_compose<Handler, void(error_code)>(Teardown{gated}, handler, gated.stream_);
   }
 
  private:
+  static constexpr auto kTeardownTime = std::chrono::seconds(2);
+  static constexpr std::size_t kTeardownBytes = 256 * 1024;
+
   /// Receives until something may be handed on, and hands it on.
   template <class Buffers>
   struct Read {
@@ -70,6 +76,31 @@ class GatedStream {
           boost::asio::buffer_copy(buffers, boost::asio::buffer(gate.ready().data(), gate.ready().size()));
       gate.taken(handed_on);
       operation.complete({}, handed_on);
+    }
+  };
+
+  /// What still comes is read and thrown away, within limits: a socket that is closed with something unread
+  /// takes back what has not reached its peer yet, most of all why it is closed.
+  struct Teardown {
+    GatedStream& gated;
+    std::size_t bytes_left = kTeardownBytes;
+    bool started = false;
+
+    template <class Operation>
+    void operator()(Operation& operation, error_code error = {}, std::size_t count = 0) {
+      next_layer_type& stream = gated.stream_;
+      if (!std::exchange(started, true)) {
+        error_code ignored;
+        stream.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
+        stream.expires_after(kTeardownTime);
+      }
+      bytes_left -= std::min(bytes_left, count);
+      if (!error && bytes_left > 0) {
+        const auto room = gated.gate_.room();
+        return stream.async_read_some(boost::asio::buffer(room.data(), room.size()), std::move(operation));
+      }
+      stream.close();
+      operation.complete({});
     }
   };
 

@@ -126,7 +126,7 @@ class Http(unittest.TestCase):
 
     def test_lists_may_stand_on_several_lines(self):  # RFC 9110, section 5.3
         for header, lines in [("Sec_WebSocket_Protocol", ["other", "weft.v1"]), ("Connection", ["keep-alive", "Upgrade"]),
-                              ("Upgrade", ["other/1", "websocket"])]:
+                              ("Upgrade", ["other", "websocket"])]:
             with self.subTest(header):
                 self.assertEqual(self.server.upgrade("/v1/scenes/hung", **{header: lines}), 101)
 

@@ -143,7 +143,7 @@ std::string polygon(int count, const char* line_end) {
 }
 
 TEST_F(SurfaceFile, FacesOfManyCornersAreRefusedBeforeTheyAreCut) {
-  // To cut one of a million into triangles would take hours: each is tried against all corners.
+  // The time to cut one into triangles grows with the square of its corners.
   for (const char* line_end : {"\n", "\r\n", "\r"}) {
     for (const int corners : {129, 1'000'000}) {
       write("scenes/face.obj", polygon(corners, line_end));
