@@ -25,8 +25,9 @@ std::string_view authority(std::string_view origin) {
 }
 
 std::string_view without_port(std::string_view authority) {
-  if (authority.starts_with('[')) return authority.substr(0, authority.find(']') + 1);
-  return authority.substr(0, authority.find(':'));
+  // The colons of an address are within its brackets.
+  const std::size_t begin = authority.starts_with('[') ? authority.find(']') : 0;
+  return authority.substr(0, authority.find(':', begin));
 }
 
 /// "[::1]", "192.168.0.7".
