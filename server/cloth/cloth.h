@@ -94,7 +94,10 @@ class Cloth {
   /// Its steps are left out, as nothing moves or it rests: substeps is 0 and the state keeps its bits
   /// (sleep.h).
   bool asleep() const { return sleep_.asleep(); }
-  void wake() { sleep_.wake(); }
+  void wake() {
+    sleep_.wake();
+    disturbed_ = true;
+  }
   /// Left alone it would sleep, or it stands still.
   bool quiet() const { return sleep_.quiet() || frozen(); }
   void set_company(Sleep::Company company) { sleep_.set_company(company); }
@@ -172,6 +175,9 @@ class Cloth {
   /// advance(), until a state is good.
   AdvanceReport advance_soundly(const std::vector<Solid>& solids, const Air& air, double time, double dt);
   AdvanceReport attempt(const Air& air, double time, double dt);
+  /// Whether anything may do work on it in a step of dt seconds: air or a hand, pins or solids that move,
+  /// gas, other cloths.
+  bool driven(const Forces<Real>& forces, double dt) const;
   /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
   const VectorField<float>* node_air(const Air& air, double time, double dt);
   /// Nothing remembers a step that was taken back.
@@ -214,6 +220,7 @@ class Cloth {
   // As seen from the cloth's place:
   std::vector<Solid> met_;     ///< as they were when the step began
   std::vector<Solid> solids_;  ///< as the cloth moves them in the step
+  bool disturbed_ = true;      ///< since the last step something has been changed that may give it energy
   int nodes_in_contact_ = 0;   ///< at the end of the last step that was made
   LayerContacts<Real>* layers_ = nullptr;
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid

@@ -110,46 +110,11 @@ bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   return moved && sound;
 }
 
-template <class Real>
-void take_from_motion(Particles<Real>& particles, double energy) {
-  const Grid& grid = particles.grid();
-  Vec3 mean(0, 0, 0);
-  double mass = 0;
-  bool pinned = false;
-  const auto for_each_free = [&](auto visit) {
-    for (int r = 0; r < grid.rows; ++r) {
-      for (std::size_t i = grid.index(r, 0); i < grid.index(r, grid.cols); ++i) {
-        if (particles.inverse_mass.values()[i] > 0) {
-          visit(i, double(particles.mass.values()[i]));
-        } else {
-          pinned = true;
-        }
-      }
-    }
-  };
-  const auto velocity = kernels::components(particles.velocity);
-  for_each_free([&](std::size_t i, double m) {
-    mean += m * at<Real>(velocity, i);
-    mass += m;
-  });
-  if (mass == 0) return;
-  mean = pinned ? Vec3(0, 0, 0) : Vec3(mean / mass);
-  double motion = 0;  // J
-  for_each_free(
-      [&](std::size_t i, double m) { motion += m * (at<Real>(velocity, i) - mean).squaredNorm() / 2; });
-  if (motion == 0) return;
-  const double kept = std::sqrt(std::max(0.0, 1 - energy / motion));
-  for_each_free(
-      [&](std::size_t i, double) { add(velocity, i, Vec3((kept - 1) * (at<Real>(velocity, i) - mean))); });
-}
-
 template bool is_put_onto<float>(const Particles<float>&, Contact<float>&, const std::vector<Solid>&);
 template bool is_put_onto<double>(const Particles<double>&, Contact<double>&, const std::vector<Solid>&);
 template bool settle<float>(Particles<float>&, Unsettled, Forces<float>, Contact<float>*,
                             const std::vector<Solid>&, double, double);
 template bool settle<double>(Particles<double>&, Unsettled, Forces<double>, Contact<double>*,
                              const std::vector<Solid>&, double, double);
-template void take_from_motion<float>(Particles<float>&, double);
-template void take_from_motion<double>(Particles<double>&, double);
 
 }  // namespace weft

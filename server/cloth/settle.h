@@ -38,9 +38,4 @@ template <class Real>
 bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
             const std::vector<Solid>& solids, double longest, double enough = 0);
 
-/// Takes so much energy, J, from the free nodes' motion, or what there is of it: all are slowed down in
-/// proportion. Where nothing is pinned it is their motion about their mean velocity, so that momentum stays.
-template <class Real>
-void take_from_motion(Particles<Real>& particles, double energy);
-
 }  // namespace weft

@@ -70,6 +70,7 @@ void Cloth<Real>::take_state(const Cloth& other) {
   held_ = other.held_;
   had_ = other.had_;
   begins_ = other.begins_;
+  disturbed_ = other.disturbed_;
   particles_ = other.particles_;
   time_ = other.time_;
   description_.pins = other.description_.pins;

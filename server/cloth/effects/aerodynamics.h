@@ -25,6 +25,7 @@ class Aerodynamics final : public Effect<Real> {
   bool feels_wind() const override { return true; }
   bool slow() const override { return true; }
   bool needs_blocks() const override { return true; }
+  bool drives(const EffectContext& context) const override { return context.has_wind(); }
 
  private:
   /// The largest |w.A| of a face, m3/s.

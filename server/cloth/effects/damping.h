@@ -15,6 +15,7 @@ class Damping final : public Effect<Real> {
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
   void add_damping(const Particles<Real>& particles, const EffectContext& context,
                    const DampingMatrix<Real>& damping) const override;
+  bool drives(const EffectContext&) const override { return false; }
 
  private:
   DampingEffect parameters_;

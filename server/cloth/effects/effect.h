@@ -28,6 +28,8 @@ struct EffectContext {
   const VectorField<float>* node_air = nullptr;
   /// Of the wind at `time`, m/s; below 0 where a gust turns it round.
   double wind_speed() const { return gusts ? wind->speed * gusts->factor(time) : wind->speed; }
+  /// Not all air is still.
+  bool has_wind() const { return wind->speed > 0 || node_air != nullptr; }
 };
 
 /// Calls visit(faces, first) for all faces that are not torn: those of a grid that begins at the scalar
@@ -75,6 +77,11 @@ class Effect {
   virtual bool slow() const { return false; }
   /// Whether add_damping writes blocks.
   virtual bool needs_blocks() const { return false; }
+  /// Whether it may do work on the cloth, in this wind. If not it only takes energy, but for what energy()
+  /// has.
+  virtual bool drives(const EffectContext&) const { return true; }
+  /// Potential energy of a force that is its gradient, J; 0 for others.
+  virtual double energy(const Particles<Real>&) const { return 0; }
 };
 
 extern template class Effect<float>;

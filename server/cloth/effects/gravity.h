@@ -11,6 +11,8 @@ class Gravity final : public Effect<Real> {
   const char* name() const override { return GravityEffect::kName; }
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
+  bool drives(const EffectContext&) const override { return false; }
+  double energy(const Particles<Real>& particles) const override;
 
  private:
   GravityEffect parameters_;

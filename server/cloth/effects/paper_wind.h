@@ -16,6 +16,7 @@ class PaperWind final : public Effect<Real> {
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
   bool feels_wind() const override { return true; }
+  bool drives(const EffectContext& context) const override { return context.has_wind(); }
 
  private:
   PaperWindEffect parameters_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cloth/clock.h"
+#include "cloth/motion.h"
 #include "cloth/solver/node_vector.h"
 #include "cloth/tear/pieces.h"
 
@@ -47,6 +48,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double h = dt / parameters_.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
+  memory_->bound.begin_step(particles, forces);
   ContactConstraints<Real>& contacts = memory_->contacts;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
@@ -81,6 +83,9 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     if (forces.seam != nullptr) forces.seam->join(particles);
     end_substep(particles, contact, h);
   }
+  const double kept = memory_->bound.end_step(particles, forces, dt);
+  // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
+  if (second_order_ && kept < 1) scale_motion(particles, kept, memory_->last_velocity);
   report.sound = state_->sound;
   return report;
 }

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cloth/contact/contact_constraints.h"
+#include "cloth/integrators/energy_bound.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/motion_scale.h"
 #include "cloth/integrators/softened_springs.h"
@@ -27,6 +28,8 @@ namespace weft {
 ///
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
+///
+/// A cloth that nothing drives gains no energy from what the solves leave undone (EnergyBound).
 ///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
@@ -57,6 +60,7 @@ class Implicit final : public Integrator<Real> {
     VectorField<Real> last_move, last_velocity;
     double h = 0;  ///< s, of the last substep
     ContactConstraints<Real> contacts;
+    EnergyBound<Real> bound;
 
     /// The node's next substep is one of backward Euler.
     void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }

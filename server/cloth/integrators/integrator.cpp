@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cloth/diagnostics.h"
 #include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/integrators/xpbd.h"
@@ -86,6 +87,14 @@ template <class Real>
 void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const {
   force.fill(Real(0));
   for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+}
+
+template <class Real>
+double Forces<Real>::energy(const Particles<Real>& particles) const {
+  double sum = kinetic_energy(particles) + springs->energy(particles.position);
+  if (plate != nullptr) sum += plate->energy(particles.position);
+  for (const auto& effect : *effects) sum += effect->energy(particles);
+  return sum;
 }
 
 template <class Real>

@@ -131,6 +131,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   report.substeps = plan.substeps;
   report.sound = plan.stable;
   if (!plan.stable) return report;  // not even by the most substeps
+  bound_.begin_step(particles, forces);
   const double h = dt / plan.substeps;
   const int together = plan.together;
   forces.context.damping_limit = plan.damping_limit;
@@ -169,6 +170,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     if (forces.seam != nullptr) forces.seam->join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
+  bound_.end_step(particles, forces, dt);
   return report;
 }
 

@@ -1,0 +1,266 @@
+// A cloth that nothing damps and nothing drives never has more energy than it began with: kinetic, springs',
+// plate's, and that of height, added up here in double from the state alone. Each method, over levels, rates
+// and substeps.
+//
+// "More" is relative to the energy that moves: a potential has no zero, so the gain is given as a share of
+// the largest kinetic energy of the first ten seconds. The energy that the start has above the rest is no
+// less.
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/simulation.h"
+#include "methods.h"
+#include "scene/scene.h"
+
+namespace weft::test {
+namespace {
+
+constexpr double kMostGain = 0.01;
+
+struct Run {
+  std::string scene;  ///< a preset, "silk-swing" or "strip"
+  Method method;
+  int level;
+  int rate;      ///< steps a second
+  int substeps;  ///< explicit methods choose their own, which bdf2 and backward_euler do not
+  double seconds;
+};
+
+void PrintTo(const Run& run, std::ostream* out) {
+  *out << run.scene << " by " << name_of(run.method) << ", level " << run.level << ", " << run.rate << " Hz, "
+       << run.substeps << " substeps, " << run.seconds << " s";
+}
+
+std::string name_of_run(const ::testing::TestParamInfo<Run>& tested) {
+  const Run& run = tested.param;
+  std::string scene = run.scene;
+  std::replace(scene.begin(), scene.end(), '-', '_');
+  return scene + "_" + name_of(run.method) + "_L" + std::to_string(run.level) + "_" +
+         std::to_string(run.rate) + "Hz_x" + std::to_string(run.substeps);
+}
+
+/// Cotton, 1 m long and 0.25 m wide, hung by its short edge, stretched by its weight and let go in its first
+/// mode, J0(j01 sqrt(s)), with its end 0.15 m aside.
+SimulationDescription strip(int level) {
+  constexpr double kFirstZero = 2.404825557695773, kWidth = 0.25, kAside = 0.15;
+  ClothDescription cloth;
+  cloth.size = {kWidth, 1};
+  cloth.material = find_fabric("cotton")->material;
+  cloth.min_level = cloth.max_level = cloth.initial_level = level;
+  cloth.pins = {PinRegion{0, 1, 0, 0}};
+  const Grid grid = cloth.base_cells.at(level);
+  const double cell = 1.0 / (grid.rows - 1);
+  const auto aside = [&](int r) {
+    return r == 0 ? 0 : kAside * std::cyl_bessel_j(0.0, kFirstZero * std::sqrt(1 - r * cell));
+  };
+  double y = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    if (r > 0) {
+      const double load = cloth.material.density * 9.81 * (1 - (r - 0.5) * cell);
+      const double length = cell * (1 + load / cloth.material.structural), step = aside(r) - aside(r - 1);
+      y -= std::sqrt(length * length - step * step);
+    }
+    for (int c = 0; c < grid.cols; ++c)
+      cloth.nodes.push_back({kWidth * (double(c) / (grid.cols - 1) - 0.5), y, aside(r)});
+  }
+  SimulationDescription simulation;
+  simulation.cloths = {cloth};
+  simulation.effects = {GravityEffect{}};
+  return simulation;
+}
+
+/// What neither damps nor drives: without air, pressure and what tears, and with all that moves standing
+/// still where it begins, or away if it would fall.
+void close_off(SimulationDescription& scene) {
+  std::erase_if(scene.effects, [](const EffectDescription& effect) {
+    return !std::holds_alternative<GravityEffect>(effect) &&
+           !std::holds_alternative<PlateBendingEffect>(effect) &&
+           !std::holds_alternative<StrainLimitEffect>(effect) &&
+           !std::holds_alternative<ClothContactEffect>(effect);
+  });
+  scene.wind = Wind{};
+  for (ClothDescription& cloth : scene.cloths) {
+    for (PinRegion& pin : cloth.pins) {
+      pin.path.clear();
+      pin.loop = false;
+    }
+  }
+  std::erase_if(scene.balls,
+                [](const BallDescription& ball) { return ball.motion == BallDescription::Motion::dynamic; });
+  for (BallDescription& ball : scene.balls) {
+    ball.path.clear();
+    ball.loop = false;
+    ball.velocity = Vec3::Zero();
+  }
+  for (ObstacleDescription& obstacle : scene.obstacles) {
+    obstacle.path.clear();
+    obstacle.loop = false;
+    if (obstacle.body) obstacle.body->dynamic = false;
+  }
+}
+
+IntegratorDescription method_of(const Run& run) {
+  const auto implicit = [&](auto description) -> IntegratorDescription {
+    description.substeps = run.substeps;
+    return description;
+  };
+  switch (run.method) {
+    case Method::backward_euler:
+      return implicit(BackwardEulerDescription{});
+    case Method::bdf2:
+      return implicit(Bdf2Description{});
+    case Method::xpbd:
+      return XpbdDescription{};
+    default:
+      return SymplecticEulerDescription{};
+  }
+}
+
+SimulationDescription scene_of(const Run& run) {
+  SimulationDescription scene;
+  if (run.scene == "strip") {
+    scene = strip(run.level);
+  } else {
+    const bool silk = run.scene == "silk-swing";
+    scene = std::get<scene::Scene>(scene::load(silk ? "swing" : run.scene)).simulation;
+    if (silk) scene.cloths[0].material = find_fabric("silk")->material;
+    close_off(scene);
+  }
+  scene.sleep_speed = 0;
+  scene.time_step = 1.0 / run.rate;
+  scene.integrator = method_of(run);
+  return scene;
+}
+
+struct Energy {
+  double kinetic = 0, potential = 0;  ///< J
+  double sum() const { return kinetic + potential; }
+};
+
+void add_energy(const Cloth<float>& cloth, const Vec3& gravity, Energy& energy) {
+  const Particles<float>& nodes = cloth.particles();
+  const Grid& grid = nodes.grid();
+  each_node(grid, [&](int r, int c) {
+    const double mass = nodes.mass.at(r, c);
+    if (nodes.inverse_mass.at(r, c) > 0) energy.kinetic += mass * nodes.velocity_at(r, c).squaredNorm() / 2;
+    energy.potential -= mass * gravity.dot(nodes.position_at(r, c));
+  });
+  for (const SpringFamily& family : cloth.springs().families()) {
+    for (int r = 0; r + family.rows < grid.rows; ++r) {
+      for (int c = std::max(0, -family.cols); c + std::max(0, family.cols) < grid.cols; ++c) {
+        const double length =
+            (nodes.position_at(r, c) - nodes.position_at(r + family.rows, c + family.cols)).norm();
+        const double stretch = length - family.rest_length,
+                     past = std::max(0.0, length - family.limit.length);
+        energy.potential += family.stiffness_at(r, c, grid.rows, grid.cols) / 2 *
+                            (stretch * stretch + (family.limit.stiffening - 1) * past * past);
+      }
+    }
+  }
+  if (cloth.plate() == nullptr) return;
+  cloth.plate()->for_each_stencil([&](double stiffness, const auto& stencil) {
+    Vec3 difference(0, 0, 0);
+    for (const auto& node : stencil) {
+      if (node.weight != 0) difference += node.weight * nodes.position_at(node.row, node.col);
+    }
+    energy.potential += stiffness * difference.squaredNorm() / 2;
+  });
+}
+
+Energy energy_of(const Simulation<float>& simulation) {
+  Energy energy;
+  for (const Cloth<float>& cloth : simulation.cloths()) add_energy(cloth, simulation.gravity(), energy);
+  return energy;
+}
+
+struct Outcome {
+  double gain = 0;  ///< the largest, relative
+  double kept = 0;  ///< of the first ten seconds' largest kinetic energy, in the last ten
+};
+
+Outcome outcome_of(const Run& run) {
+  Simulation<float> simulation(scene_of(run));
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i) simulation.request_level(i, run.level);
+  simulation.step();  // in which the level changes
+  const double start = energy_of(simulation).sum();
+  const int steps = static_cast<int>(run.seconds * run.rate), every = std::max(1, run.rate / 20);
+  double most = start, moving = 0, last = 0;
+  for (int step = 1; step < steps; ++step) {
+    simulation.step();
+    if (step % every != 0) continue;
+    const Energy energy = energy_of(simulation);
+    most = std::max(most, energy.sum());
+    if (step < 10 * run.rate) moving = std::max(moving, energy.kinetic);
+    if (step >= steps - 10 * run.rate) last = std::max(last, energy.kinetic);
+  }
+  return {(most - start) / moving, last / moving};
+}
+
+class UndampedEnergy : public ::testing::TestWithParam<Run> {};
+
+TEST_P(UndampedEnergy, IsNeverMoreThanAtTheStart) {
+  const Outcome outcome = outcome_of(GetParam());
+  RecordProperty("gain", std::to_string(outcome.gain));
+  RecordProperty("kept", std::to_string(outcome.kept));
+  EXPECT_LT(outcome.gain, kMostGain);
+}
+
+// Up to a minute of what swings, by each method.
+INSTANTIATE_TEST_SUITE_P(Swings, UndampedEnergy,
+                         ::testing::Values(Run{"silk-swing", Method::bdf2, 5, 60, 1, 60},
+                                           Run{"silk-swing", Method::bdf2, 4, 15, 1, 60},
+                                           Run{"silk-swing", Method::bdf2, 4, 240, 8, 10},
+                                           Run{"silk-swing", Method::backward_euler, 4, 60, 1, 60},
+                                           Run{"silk-swing", Method::symplectic_euler, 4, 60, 0, 20},
+                                           Run{"silk-swing", Method::xpbd, 4, 60, 0, 20},
+                                           Run{"strip", Method::bdf2, 4, 60, 1, 60},
+                                           Run{"strip", Method::bdf2, 4, 60, 4, 30},
+                                           Run{"strip", Method::backward_euler, 4, 240, 3, 10},
+                                           Run{"strip", Method::symplectic_euler, 4, 60, 0, 20},
+                                           Run{"strip", Method::xpbd, 4, 60, 0, 20}),
+                         name_of_run);
+
+/// Ten minutes, or as much of them as takes about so many seconds of a processor.
+double as_long_as(double processor, int level, int steps_a_second, Method method) {
+  // Seconds a substep, measured at level 4; nearly in proportion to the nodes.
+  const bool is_implicit = method == Method::bdf2 || method == Method::backward_euler;
+  const double substep = (is_implicit ? 7e-5 : 4e-6) * std::pow(4, level - 4);
+  const double substeps = is_implicit ? steps_a_second : 2400 * std::pow(2, level - 4);
+  return std::clamp(processor / (substep * substeps), 20.0, 600.0);
+}
+
+/// The i-th of nine that have each pair of level and rate once, of level and substeps, and of rate and
+/// substeps.
+Run spread(const std::string& scene, Method method, int i, double processor) {
+  constexpr std::array kRates{15, 60, 240}, kSubsteps{1, 3, 8};
+  const auto u = static_cast<std::size_t>(i % 3), v = static_cast<std::size_t>(i / 3 % 3);
+  const int level = 4 + static_cast<int>(u), substeps = kSubsteps[(u + v) % 3];
+  return {scene,     method,   level,
+          kRates[v], substeps, as_long_as(processor, level, kRates[v] * substeps, method)};
+}
+
+std::vector<Run> swings() {
+  std::vector<Run> runs;
+  for (const char* scene : {"silk-swing", "strip"}) {
+    for (const Method method : kMethods) {
+      for (int i = 0; i < 9; ++i) runs.push_back(spread(scene, method, i, 100));
+    }
+  }
+  return runs;
+}
+
+/// Each preset by each method, at places of the spread that change from preset to preset.
+std::vector<Run> all_presets() {
+  std::vector<Run> runs;
+  int i = 0;
+  for (const scene::Preset& preset : scene::presets()) {
+    for (const Method method : kMethods) runs.push_back(spread(std::string(preset.name), method, i++, 20));
+  }
+  return runs;
+}
+
+INSTANTIATE_TEST_SUITE_P(NightlySwings, UndampedEnergy, ::testing::ValuesIn(swings()), name_of_run);
+INSTANTIATE_TEST_SUITE_P(NightlyPresets, UndampedEnergy, ::testing::ValuesIn(all_presets()), name_of_run);
+
+}  // namespace
+}  // namespace weft::test
