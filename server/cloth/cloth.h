@@ -3,6 +3,7 @@
 #include <span>
 
 #include "cloth/colliders.h"
+#include "cloth/contact/pinned_node.h"
 #include "cloth/effects/grab.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/interrupt.h"
@@ -146,6 +147,9 @@ class Cloth {
   std::span<const Touch> touches() const {
     return contact_ ? std::span<const Touch>(contact_->touches()) : std::span<const Touch>();
   }
+  /// Adds the pinned nodes that solids which yield may meet in the step of `dt` from `time` on, s.
+  void add_pins_near(const std::vector<Solid>& solids, double time, double dt,
+                     std::vector<PinnedNode>& found);
   /// Touches the solid, or will within a step of `dt` seconds if all go on as they go.
   bool meets(const Solid& solid, double dt);
   /// Hands over what the last advance gave to the balls.

@@ -1,11 +1,13 @@
 /// Cloth's steps: what is done around the integrator's.
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "cloth/clock.h"
 #include "cloth/cloth.h"
 #include "cloth/motion.h"
 #include "cloth/place.h"
+#include "cloth/solver/node_vector.h"
 
 namespace weft {
 namespace {
@@ -174,6 +176,33 @@ std::vector<Touch> Cloth<Real>::keep_outside(const VectorField<Real>& before, do
 }
 
 template <class Real>
+void Cloth<Real>::add_pins_near(const std::vector<Solid>& solids, double time, double dt,
+                                std::vector<PinnedNode>& found) {
+  const auto yields = [](const Solid& solid) { return solid.yields(); };
+  if (description_.pins.empty() || std::none_of(solids.begin(), solids.end(), yields)) return;
+  std::map<std::size_t, Vec3> ways;  // by node
+  double longest = 0;
+  if (pins_.moving() && !frozen() && pins_.begin_step(particles_, solids, time, dt)) {
+    pins_.for_each_way(time, time + dt, [&](std::size_t node, const Vec3& way) {
+      ways[node] = way;
+      longest = std::max(longest, way.norm());
+    });
+  }
+  for (const auto& [node, solid] : contact().pinned_near(particles_, solids, longest)) {
+    Solid pin;
+    pin.shape = Sphere{0};
+    pin.friction = solids[solid].friction;
+    pin.start = pin.position = at<Real>(kernels::components(particles_.position), node);
+    if (const auto way = ways.find(node); way != ways.end()) {
+      pin.mobile = true;
+      pin.position += way->second;
+      pin.velocity = way->second / dt;
+    }
+    found.push_back({solid, pin});
+  }
+}
+
+template <class Real>
 bool Cloth<Real>::meets(const Solid& solid, double dt) {
   const std::vector<Touch>& touches = contact().touches();
   return std::any_of(touches.begin(), touches.end(),
@@ -198,6 +227,8 @@ template void Cloth<float>::forget_attempt();
 template std::vector<Solid> Cloth<float>::seen(const std::vector<Solid>&) const;
 template Contact<float>& Cloth<float>::contact();
 template std::vector<Touch> Cloth<float>::keep_outside(const VectorField<float>&, double);
+template void Cloth<float>::add_pins_near(const std::vector<Solid>&, double, double,
+                                          std::vector<PinnedNode>&);
 template bool Cloth<float>::meets(const Solid&, double);
 template void Cloth<float>::push_balls(Colliders&) const;
 template bool Cloth<double>::unsettled(const std::vector<Solid>&);
@@ -212,6 +243,8 @@ template void Cloth<double>::forget_attempt();
 template std::vector<Solid> Cloth<double>::seen(const std::vector<Solid>&) const;
 template Contact<double>& Cloth<double>::contact();
 template std::vector<Touch> Cloth<double>::keep_outside(const VectorField<double>&, double);
+template void Cloth<double>::add_pins_near(const std::vector<Solid>&, double, double,
+                                           std::vector<PinnedNode>&);
 template bool Cloth<double>::meets(const Solid&, double);
 template void Cloth<double>::push_balls(Colliders&) const;
 

@@ -142,22 +142,23 @@ bool Colliders::may_meet() const {
           std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.awake(); }));
 }
 
-void Colliders::meet(BodyCollision& collision, double dt) {
+void Colliders::meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins) {
   constexpr int kMostRounds = 4;
   constexpr double kStray = 1e-4;  // m
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!(bend_ways(collision, dt) > kStray)) return;
+    if (!(bend_ways(collision, dt, pins) > kStray)) return;
   }
 }
 
-double Colliders::bend_ways(BodyCollision& collision, double dt) {
+double Colliders::bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins) {
   gather_solids();
-  const std::vector<BodyContact>& contacts = collision.find(solids_, dt);
+  const std::vector<BodyContact>& contacts = collision.find(solids_, dt, pins);
   if (contacts.empty()) return 0;
   std::vector<MovingBody> bodies;
   for (const Solid& solid : solids_) {
     bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});
   }
+  for (const PinnedNode& pin : pins) bodies.push_back({.velocity = pin.node.velocity});
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     const Ball& ball = balls_[i];
     if (!ball.awake()) continue;

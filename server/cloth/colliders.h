@@ -133,8 +133,8 @@ class Colliders {
   /// Dynamic balls and bodies stop and shove each other, and stop at what else is in their way, in the step
   /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
   /// Again where a hit turned one by so much that what was told of its points by the way that it began with
-  /// is off by more than 0.1 mm.
-  void meet(BodyCollision& collision, double dt);
+  /// is off by more than 0.1 mm. `pins` hold up what they meet.
+  void meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins = {});
   /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
   /// last good place, at rest and without its path. Single precision, which frames have, still holds it.
   static constexpr double kFarthest = 1e30;
@@ -153,7 +153,7 @@ class Colliders {
   /// Decides what sleeps through the step of dt, s, in which all that no force moves goes as it does now.
   void let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths);
   /// meet(), once. Returns how far a body's points may be off, m: the second order of the turn it was given.
-  double bend_ways(BodyCollision& collision, double dt);
+  double bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins);
   /// What is next to the solid wakes.
   void wake_near(const Solid& solid);
   void stop_bad_balls();

@@ -173,7 +173,9 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   check_interrupt(0);
   colliders_.begin_step(time, dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>(),
                         parts_left);
-  meet_bodies(dt);
+  std::vector<PinnedNode> pins;
+  for (Cloth<Real>& cloth : cloths_) cloth.add_pins_near(colliders_.solids(), time, dt, pins);
+  meet_bodies(pins, dt);
   if (cloths_.size() > 1) share_balls(dt);
   settle_cloths(time);
   double layers = 0;  // s
@@ -190,7 +192,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   }
   profile_.contact += layers;
   for (const Cloth<Real>& cloth : cloths_) cloth.push_balls(colliders_);
-  if (colliders_.end_step()) meet_bodies(dt);  // what the cloths press into others stays outside
+  if (colliders_.end_step()) meet_bodies(pins, dt);  // what the cloths press into others stays outside
   colliders_.watch(dt);
   collect_guard_events();
 }
@@ -203,10 +205,10 @@ std::vector<Sleeper> Simulation<Real>::sleepers() const {
 }
 
 template <class Real>
-void Simulation<Real>::meet_bodies(double dt) {
-  if (!colliders_.may_meet()) return;
+void Simulation<Real>::meet_bodies(const std::vector<PinnedNode>& pins, double dt) {
+  if (pins.empty() && !colliders_.may_meet()) return;
   if (!body_collision_) body_collision_ = std::make_unique<BodyCollision>();
-  colliders_.meet(*body_collision_, dt);
+  colliders_.meet(*body_collision_, dt, pins);
 }
 
 template <class Real>

@@ -131,7 +131,7 @@ class Simulation {
   /// All cloths, for islands of what sleeps together.
   std::vector<Sleeper> sleepers() const;
   /// Dynamic balls and bodies meet each other and what is in their way.
-  void meet_bodies(double dt);
+  void meet_bodies(const std::vector<PinnedNode>& pins, double dt);
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
   /// Calls work(i) for each cloth, side by side where that helps.

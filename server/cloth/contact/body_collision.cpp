@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "cloth/contact/box_tree.h"
@@ -25,9 +27,15 @@ using Pair = std::pair<int, int>;
 constexpr double kBodyMargin = 0.5;
 /// Of two solids' contacts these are enough to hold them.
 constexpr std::size_t kMostContacts = 8;
+/// Of the same margin: so far back on its way a pinned node is told which face it comes to.
+constexpr double kSeenFrom = 0.03;
+/// Of a body's outer radius: how strongly a surface must be curved for its nearest points to be kept, not its
+/// farthest. A ball's is 1, a face has none.
+constexpr double kRoundness = 2;
 
 bool is_half_space(const Solid& solid) { return std::holds_alternative<HalfSpace>(solid.shape); }
 bool is_ball(const Solid& solid) { return std::holds_alternative<Sphere>(solid.shape); }
+bool is_pinned_node(const Solid& solid) { return inner_radius(solid.shape) == 0; }
 const TriangleMesh* surface_of(const Solid& solid) {
   const auto* mesh = std::get_if<Mesh>(&solid.shape);
   return mesh == nullptr ? nullptr : mesh->surface;
@@ -97,24 +105,28 @@ fcl::Transform3d end_of(const Solid& solid) {
 /// Two solids while their contacts are looked for.
 class Meeting {
  public:
-  Meeting(const std::vector<Solid>& solids, Pair pair, double dt, std::vector<BodyContact>& contacts)
+  Meeting(const Solid& a, const Solid& b, Pair pair, double dt, std::vector<BodyContact>& contacts)
       : index_(pair),
-        a_(solids[static_cast<std::size_t>(pair.first)]),
-        b_(solids[static_cast<std::size_t>(pair.second)]),
-        margin_(kBodyMargin * std::min(inner_radius(a_.shape), inner_radius(b_.shape))),
+        a_(a),
+        b_(b),
+        margin_(kBodyMargin * std::min(half_width(a_), half_width(b_))),
         dt_(dt),
-        contacts_(contacts),
-        first_(contacts.size()) {}
+        contacts_(contacts) {}
 
   const Solid& a() const { return a_; }
   const Solid& b() const { return b_; }
-  bool fast() const { return most_move(a_) + most_move(b_) > margin_; }
+  /// Where it ends says nothing of where it came from. What is next to a node that has come in by a little at
+  /// a body's edge may be another face than the one it came through.
+  bool looked_at_on_its_way() const {
+    return is_pinned_node(b_) || (!is_half_space(b_) && most_move(a_) + most_move(b_) > margin_);
+  }
 
   /// Where the corners of one meet the other on their ways; false if none does.
   bool sweep() {
+    const std::size_t before = contacts_.size();
     if (is_ball(a_) || !is_ball(b_)) sweep_corners(false);
     if (!is_ball(a_)) sweep_corners(true);
-    return contacts_.size() > first_;
+    return contacts_.size() > before;
   }
 
   /// Of a, or of b if `swapped`, where they end next to the other.
@@ -163,28 +175,11 @@ class Meeting {
     }
   }
 
-  /// Keeps the deepest of what was found and then, again and again, what is farthest from all that is kept.
-  void thin_out() {
-    const auto begin = contacts_.begin() + static_cast<std::ptrdiff_t>(first_);
-    if (contacts_.size() - first_ <= kMostContacts) return;
-    const auto deepest = std::min_element(
-        begin, contacts_.end(), [](const BodyContact& p, const BodyContact& q) { return p.gap < q.gap; });
-    std::iter_swap(begin, deepest);
-    for (std::size_t kept = 1; kept < kMostContacts; ++kept) {
-      const auto end = begin + static_cast<std::ptrdiff_t>(kept);
-      const auto nearest = [&](const BodyContact& c) {
-        double least = (c.arm_a - begin->arm_a).squaredNorm();
-        for (auto k = begin; k != end; ++k) least = std::min(least, (c.arm_a - k->arm_a).squaredNorm());
-        return least;
-      };
-      std::iter_swap(end, std::max_element(end, contacts_.end(), [&](const auto& p, const auto& q) {
-                       return nearest(p) < nearest(q);
-                     }));
-    }
-    contacts_.resize(first_ + kMostContacts);
-  }
-
  private:
+  /// A pinned node has none: it counts by what it meets.
+  static double half_width(const Solid& solid) {
+    return is_pinned_node(solid) ? std::numeric_limits<double>::infinity() : inner_radius(solid.shape);
+  }
   /// The ball about its origin that it holds.
   static Corner core_of(const Shape& shape) {
     if (surface_of({.shape = shape}) == nullptr) return {.radius = inner_radius(shape)};
@@ -230,14 +225,18 @@ class Meeting {
         continue;
       }
       const Vec3 further = place_at(1) - place - on.move_of(place, share, 1);
-      const double end = surface.normal.dot(further) + gap;
+      // At an edge a pinned node meets the face it comes through, not the one that rounding finds next to it.
+      const double away = is_pinned_node(corners) ? kSeenFrom * margin_ : 0;
+      const Vec3 back = away * further.stableNormalized();
+      const Surface met = on.placed(share).surface(place - back);
+      const double end = met.normal.dot(further + back) + met.distance - corner.radius;
       if (end > margin_) return;
-      const Vec3 at = place - corner.radius * surface.normal;
+      const Vec3 at = place - corner.radius * met.normal;
       const Vec3 arm_corner = at - corners.at(share), arm_on = at - on.at(share);
       if (swapped) {
-        add(arm_on, arm_corner, -surface.normal, end, share);
+        add(arm_on, arm_corner, -met.normal, end, share);
       } else {
-        add(arm_corner, arm_on, surface.normal, end, share);
+        add(arm_corner, arm_on, met.normal, end, share);
       }
       return;
     }
@@ -266,14 +265,36 @@ class Meeting {
   const Solid &a_, &b_;
   double margin_, dt_;
   std::vector<BodyContact>& contacts_;
-  std::size_t first_;
 };
+
+/// Of the contacts from `first` on, all of a body of this outer radius, keeps the deepest and then, again
+/// and again, the one that is farthest from all that is kept, less what its gap is wider than the deepest's:
+/// a flat face is held at its corners and a ball by what is right below it.
+void thin_out(std::vector<BodyContact>& contacts, std::size_t first, double radius) {
+  const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+  if (contacts.size() - first <= kMostContacts) return;
+  const auto deepest = std::min_element(
+      begin, contacts.end(), [](const BodyContact& p, const BodyContact& q) { return p.gap < q.gap; });
+  std::iter_swap(begin, deepest);
+  for (std::size_t kept = 1; kept < kMostContacts; ++kept) {
+    const auto end = begin + static_cast<std::ptrdiff_t>(kept);
+    const auto worth = [&](const BodyContact& c) {
+      double nearest = (c.arm_a - begin->arm_a).squaredNorm();
+      for (auto k = begin; k != end; ++k) nearest = std::min(nearest, (c.arm_a - k->arm_a).squaredNorm());
+      return nearest / (kRoundness * 2 * radius) - (c.gap - begin->gap);
+    };
+    std::iter_swap(end, std::max_element(end, contacts.end(),
+                                         [&](const auto& p, const auto& q) { return worth(p) < worth(q); }));
+  }
+  contacts.resize(first + kMostContacts);
+}
 
 }  // namespace
 
 struct BodyCollision::Impl {
-  /// The pairs that may meet, one of each yields, a half-space second, in the order of `find`.
-  bool find_pairs(const std::vector<Solid>& solids) {
+  /// The pairs that may meet, one of each yields, a half-space or a pinned node second, in the order of
+  /// `find`.
+  bool find_pairs(const std::vector<Solid>& solids, const std::vector<PinnedNode>& pins) {
     pairs.clear();
     bounded.clear();
     for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -297,7 +318,10 @@ struct BodyCollision::Impl {
         if (is_half_space(solids[j])) pairs.emplace_back(i, static_cast<int>(j));
       }
     }
-    const auto solid = [&](int i) -> const Solid& { return solids[static_cast<std::size_t>(i)]; };
+    for (std::size_t i = 0; i < pins.size(); ++i) {
+      pairs.emplace_back(static_cast<int>(pins[i].solid), static_cast<int>(solids.size() + i));
+    }
+    const auto solid = [&](int i) -> const Solid& { return of(i, solids, pins); };
     std::erase_if(pairs,
                   [&](const Pair& p) { return !solid(p.first).yields() && !solid(p.second).yields(); });
     const auto firmness = [&](const Pair& p) {
@@ -310,13 +334,14 @@ struct BodyCollision::Impl {
     return true;
   }
 
+  static const Solid& of(int index, const std::vector<Solid>& solids, const std::vector<PinnedNode>& pins) {
+    const auto i = static_cast<std::size_t>(index);
+    return i < solids.size() ? solids[i] : pins[i - solids.size()].node;
+  }
+
   void look_at(Meeting& meeting) {
     const Solid &a = meeting.a(), &b = meeting.b();
-    const bool met_on_its_way = !is_half_space(b) && meeting.fast() && meeting.sweep();
-    if (met_on_its_way) {  // where it would end without that says nothing
-      meeting.thin_out();
-      return;
-    }
+    if (meeting.looked_at_on_its_way() && meeting.sweep()) return;
     if (is_half_space(b) || is_ball(a)) {
       meeting.look_at_corners(false);
     } else if (is_ball(b)) {
@@ -328,7 +353,6 @@ struct BodyCollision::Impl {
       meeting.look_at_corners(true);
       meeting.look_at_crossings(geometry(a), geometry(b));
     }
-    meeting.thin_out();
   }
 
   /// As FCL has the shape; no ball and no half-space.
@@ -355,14 +379,28 @@ struct BodyCollision::Impl {
 BodyCollision::BodyCollision() : impl_(std::make_unique<Impl>()) {}
 BodyCollision::~BodyCollision() = default;
 
-const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& solids, double dt) {
-  impl_->contacts.clear();
-  if (!impl_->find_pairs(solids)) return impl_->contacts;
-  for (const Pair& pair : impl_->pairs) {
-    Meeting meeting(solids, pair, dt, impl_->contacts);
-    impl_->look_at(meeting);
+const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& solids, double dt,
+                                                    const std::vector<PinnedNode>& pins) {
+  std::vector<BodyContact>& contacts = impl_->contacts;
+  contacts.clear();
+  if (!impl_->find_pairs(solids, pins)) return contacts;
+  // All pinned nodes beside a body are one thing that holds it.
+  const auto same = [&](const Pair& p, const Pair& q) {
+    const int count = static_cast<int>(solids.size());
+    return p.first == q.first && std::min(p.second, count) == std::min(q.second, count);
+  };
+  for (auto begin = impl_->pairs.begin(), end = begin; begin != impl_->pairs.end(); begin = end) {
+    end = std::find_if(begin, impl_->pairs.end(), [&](const Pair& p) { return !same(*begin, p); });
+    const std::size_t first = contacts.size();
+    const Solid &a = solids[static_cast<std::size_t>(begin->first)],
+                &b = Impl::of(begin->second, solids, pins);
+    for (const Pair& pair : std::span(begin, end)) {
+      Meeting meeting(a, Impl::of(pair.second, solids, pins), pair, dt, contacts);
+      impl_->look_at(meeting);
+    }
+    thin_out(contacts, first, outer_radius(a.yields() ? a.shape : b.shape));
   }
-  return impl_->contacts;
+  return contacts;
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cloth/contact/body_contact.h"
+#include "cloth/contact/pinned_node.h"
 #include "cloth/contact/solid.h"
 
 namespace weft {
@@ -15,6 +16,9 @@ namespace weft {
 /// have passed through is looked at along its way (conservative advancement: Mirtich, Impulse-based Dynamic
 /// Simulation, 1996): then its corners and a ball in its middle count.
 ///
+/// Pinned nodes of cloths are balls of no radius, which the tree does not hold: whoever knows them tells which
+/// of them are near.
+///
 /// Nothing is remembered but FCL's form of the meshes: the contacts follow from the solids alone.
 class BodyCollision {
  public:
@@ -24,9 +28,11 @@ class BodyCollision {
   BodyCollision& operator=(const BodyCollision&) = delete;
 
   /// In a step of dt, s, in which the solids go as they say. Ordered: between two that yield first, with what
-  /// never moves last, so that this is given way to least; then by solid. None if a solid that yields is not
-  /// at a finite place. Meshes must outlive this. Valid until the next call.
-  const std::vector<BodyContact>& find(const std::vector<Solid>& solids, double dt);
+  /// never moves last, so that this is given way to least; then by solid. The indices of `pins` follow those
+  /// of the solids. None if a solid that yields is not at a finite place. Meshes must outlive this. Valid
+  /// until the next call.
+  const std::vector<BodyContact>& find(const std::vector<Solid>& solids, double dt,
+                                       const std::vector<PinnedNode>& pins = {});
 
  private:
   struct Impl;

@@ -272,6 +272,37 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
 }
 
 template <class Real>
+std::vector<std::pair<std::size_t, std::size_t>> Contact<Real>::pinned_near(const Particles<Real>& particles,
+                                                                            const std::vector<Solid>& solids,
+                                                                            double longest) {
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  // What comes nearer than half a body's width may be hit when something bends its way.
+  double reach = 0;
+  for (const Solid& solid : solids) {
+    if (solid.yields()) reach = std::max(reach, longest + inner_radius(solid.shape));
+  }
+  if (reach == 0) return found;
+  const Substep step;
+  for_each_struck(
+      particles.position, broad_phase_.find_pairs(particles.position, solids, {step.from, step.to, reach}),
+      [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
+        const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+        return solid.yields() ? rows_near_way(block, solid, step, reach) : std::uint32_t{0};
+      },
+      [&](int row, int col) {
+        if (particles.inverse_mass.at(row, col) != Real(0)) return;
+        const Vec3 place = particles.position_at(row, col);
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+          if (!solids[i].yields()) continue;
+          const double way = (solids[i].at(step.to) - solids[i].at(step.from)).norm();
+          if ((place - solids[i].at(step.to)).norm() > outer_radius(solids[i].shape) + way + reach) continue;
+          found.emplace_back(particles.grid().index(row, col), i);
+        }
+      });
+  return found;
+}
+
+template <class Real>
 int Contact<Real>::keep(const std::vector<Touch>& pressed) {
   if (pressed.empty()) return 0;
   std::vector<Touch> found = touches_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "cloth/contact/broad_phase.h"
 
@@ -89,6 +90,12 @@ class Contact {
   const std::vector<Arrival>& foresee(
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
       bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
+
+  /// Before a step: the pinned nodes that a solid which yields may come to in it, going no farther than it
+  /// does now, if no pin goes farther than `longest`, m; by node. Solids are told by their indices.
+  std::vector<std::pair<std::size_t, std::size_t>> pinned_near(const Particles<Real>& particles,
+                                                               const std::vector<Solid>& solids,
+                                                               double longest);
 
   /// Before resolve: these lay on a solid when the substep began, and neither the ways they had nor a
   /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
