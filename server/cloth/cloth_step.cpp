@@ -7,6 +7,7 @@
 #include "cloth/cloth.h"
 #include "cloth/motion.h"
 #include "cloth/place.h"
+#include "cloth/planar.h"
 #include "cloth/solver/node_vector.h"
 
 namespace weft {
@@ -55,6 +56,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   work_ = 0;
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
+  leave_plane(springs_, particles_);
   const WorkLimit limit(most_work_);
   AdvanceReport report;
   try {
