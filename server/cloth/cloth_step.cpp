@@ -190,11 +190,11 @@ void Cloth<Real>::add_pins_near(const std::vector<Solid>& solids, double time, d
       longest = std::max(longest, way.norm());
     });
   }
-  for (const auto& [node, solid] : contact().pinned_near(particles_, solids, longest)) {
+  for (const auto& [node, solid] : contact().pinned_near(particles_, seen(solids), longest)) {
     Solid pin;
     pin.shape = Sphere{0};
     pin.friction = solids[solid].friction;
-    pin.start = pin.position = at<Real>(kernels::components(particles_.position), node);
+    pin.start = pin.position = particles_.place + at<Real>(kernels::components(particles_.position), node);
     if (const auto way = ways.find(node); way != ways.end()) {
       pin.mobile = true;
       pin.position += way->second;

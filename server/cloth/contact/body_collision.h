@@ -16,8 +16,8 @@ namespace weft {
 /// have passed through is looked at along its way (conservative advancement: Mirtich, Impulse-based Dynamic
 /// Simulation, 1996): then its corners and a ball in its middle count.
 ///
-/// Pinned nodes of cloths are balls of no radius, which the tree does not hold: whoever knows them tells which
-/// of them are near.
+/// Pinned nodes of cloths are balls of no radius, which the tree does not hold: whoever knows them tells
+/// which of them are near.
 ///
 /// Nothing is remembered but FCL's form of the meshes: the contacts follow from the solids alone.
 class BodyCollision {

@@ -5,8 +5,8 @@
 namespace weft::study::test {
 namespace {
 
-constexpr int kFrames = 3;
-const auto kGoOn = [](int) { return true; };
+constexpr int kShortSpan = 3;
+const auto kToItsEnd = [](int) { return true; };
 
 /// The scene whose cloth is made at `level`, of the positions that splits lead to (Eq. 8).
 SimulationDescription made_at(int level, SimulationDescription description) {
@@ -27,7 +27,7 @@ TEST(Levels, AStudysErrorsAreThoseOfOneProblem) {
   for (const int level : {5}) {
     // A second a frame: 21 s for a reference of 2 to 64 substeps, then a run of the scene's own and this one.
     double seconds = 0;
-    const StudyPlan plan{{level}, {SymplecticEulerDescription::kName}, kFrames, 35, 0};
+    const StudyPlan plan{{level}, {SymplecticEulerDescription::kName}, kShortSpan, 35, 0};
     const Study study = study_cost(
         curtain, plan, [&] { return seconds; }, [&] { seconds += 1; });
     ASSERT_TRUE(study.levels[0].reference.usable());
@@ -37,9 +37,9 @@ TEST(Levels, AStudysErrorsAreThoseOfOneProblem) {
         });
     SimulationDescription by_hand = made_at(level, curtain);
     by_hand.integrator = told->candidate.integrator;
-    const Trajectory run = simulate<float>(by_hand, {level, kFrames}, kGoOn);
+    const Trajectory run = simulate<float>(by_hand, {level, kShortSpan}, kToItsEnd);
     by_hand.integrator = SymplecticEulerDescription{16 * run.substeps, 0.9};
-    const Trajectory converged = simulate<double>(by_hand, {level, kFrames}, kGoOn);
+    const Trajectory converged = simulate<double>(by_hand, {level, kShortSpan}, kToItsEnd);
     const double error = errors_of(run, converged).rms_position;
     EXPECT_NEAR(told->time.rms_position / error, 1, 0.2) << "level " << level << ", by hand " << error;
   }
