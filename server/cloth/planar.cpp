@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "cloth/random.h"
 
@@ -63,10 +64,13 @@ void scatter(const Springs<Real>& springs, Field<Real>& across, const Field<Real
 
 template <class Real>
 void leave_plane(const Springs<Real>& springs, Particles<Real>& particles) {
-  for (Field<Real>* across : {&particles.position.x, &particles.position.y, &particles.position.z}) {
-    if (!uniform(*across) || !crumpled(springs, particles)) continue;
-    scatter(springs, *across, particles.inverse_mass);
+  std::vector<Field<Real>*> flat;
+  for (Field<Real>* each : {&particles.position.x, &particles.position.y, &particles.position.z}) {
+    if (uniform(*each)) flat.push_back(each);
   }
+  constexpr std::size_t kInOnePoint = 3;
+  if (flat.empty() || flat.size() == kInOnePoint || !crumpled(springs, particles)) return;
+  for (Field<Real>* across : flat) scatter(springs, *across, particles.inverse_mass);
 }
 
 template void leave_plane(const Springs<float>&, Particles<float>&);

@@ -21,8 +21,8 @@ double farthest(const FrameMessage& message, const Particles<float>& simulated) 
     for (int c = 0; c < record.cols; ++c) {
       const float* offset = &offsets[static_cast<std::size_t>(3 * (r * record.cols + c))];
       const auto& origin = record.quantisation.origin;
-      const Vec3 at(double(origin[0]) + double(offset[0]), double(origin[1]) + double(offset[1]),
-                    double(origin[2]) + double(offset[2]));
+      const Vec3 at{double(origin[0]) + double(offset[0]), double(origin[1]) + double(offset[1]),
+                    double(origin[2]) + double(offset[2])};
       most = std::max(most, (at - simulated.position_at(r, c)).cwiseAbs().maxCoeff());
     }
   }
