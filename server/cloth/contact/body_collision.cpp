@@ -267,10 +267,11 @@ class Meeting {
   std::vector<BodyContact>& contacts_;
 };
 
-/// Of the contacts from `first` on, all of a body of this outer radius, keeps the deepest and then, again
-/// and again, the one that is farthest from all that is kept, less what its gap is wider than the deepest's:
-/// a flat face is held at its corners and a ball by what is right below it.
-void thin_out(std::vector<BodyContact>& contacts, std::size_t first, double radius) {
+/// Of the contacts from `first` on keeps the deepest and then, again and again, the one that is farthest from
+/// all that is kept: of squared distance counts what is more than `width`, m, times what its gap is wider
+/// than the deepest's. With none a face is held at its corners, with one what is round by what is right below
+/// it.
+void thin_out(std::vector<BodyContact>& contacts, std::size_t first, double width) {
   const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
   if (contacts.size() - first <= kMostContacts) return;
   const auto deepest = std::min_element(
@@ -281,7 +282,7 @@ void thin_out(std::vector<BodyContact>& contacts, std::size_t first, double radi
     const auto worth = [&](const BodyContact& c) {
       double nearest = (c.arm_a - begin->arm_a).squaredNorm();
       for (auto k = begin; k != end; ++k) nearest = std::min(nearest, (c.arm_a - k->arm_a).squaredNorm());
-      return nearest / (kRoundness * 2 * radius) - (c.gap - begin->gap);
+      return nearest - width * (c.gap - begin->gap);
     };
     std::iter_swap(end, std::max_element(end, contacts.end(),
                                          [&](const auto& p, const auto& q) { return worth(p) < worth(q); }));
@@ -398,7 +399,8 @@ const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& so
       Meeting meeting(a, Impl::of(pair.second, solids, pins), pair, dt, contacts);
       impl_->look_at(meeting);
     }
-    thin_out(contacts, first, outer_radius(a.yields() ? a.shape : b.shape));
+    const bool pinned = is_pinned_node(Impl::of(begin->second, solids, pins));
+    thin_out(contacts, first, pinned ? kRoundness * 2 * outer_radius(a.shape) : 0);
   }
   return contacts;
 }
