@@ -393,8 +393,7 @@ const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& so
   for (auto begin = impl_->pairs.begin(), end = begin; begin != impl_->pairs.end(); begin = end) {
     end = std::find_if(begin, impl_->pairs.end(), [&](const Pair& p) { return !same(*begin, p); });
     const std::size_t first = contacts.size();
-    const Solid &a = solids[static_cast<std::size_t>(begin->first)],
-                &b = Impl::of(begin->second, solids, pins);
+    const Solid& a = solids[static_cast<std::size_t>(begin->first)];
     for (const Pair& pair : std::span(begin, end)) {
       Meeting meeting(a, Impl::of(pair.second, solids, pins), pair, dt, contacts);
       impl_->look_at(meeting);
