@@ -70,7 +70,10 @@ void Cloth<Real>::take_state(const Cloth& other) {
   held_ = other.held_;
   had_ = other.had_;
   begins_ = other.begins_;
-  disturbed_ = other.disturbed_;
+  // By other effects it has another energy.
+  disturbed_ = other.disturbed_ || composed_ != other.composed_ || gravity_ != other.gravity_ ||
+               bends_plate_ != other.bends_plate_ || limits_strain_ != other.limits_strain_ ||
+               damping_time_ != other.damping_time_ || (layers_ == nullptr) != (other.layers_ == nullptr);
   particles_ = other.particles_;
   time_ = other.time_;
   description_.pins = other.description_.pins;
