@@ -48,7 +48,10 @@ void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time) {
 
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
-  if (!asleep() && follow(particles_)) guard_.amend(particles_);
+  if (!asleep() && follow(particles_)) {
+    guard_.amend(particles_);
+    disturbed_ = true;  // heights are seen from the place
+  }
   solids_ = met_ = seen(solids);  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();

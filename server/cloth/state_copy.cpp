@@ -50,6 +50,10 @@ void Simulation<Real>::take_cloths(const Simulation& other) {
   air_ = other.air_;
   for (std::size_t i = 0; i < cloths_.size(); ++i) cloths_[i].take_state(other.cloths_[i]);
   if (layers_) layers_->take_state(other.layers_.get(), cloths_);
+  // As set_effects wakes them.
+  if ((layers_ != nullptr) != (other.layers_ != nullptr)) {
+    for (Cloth<Real>& cloth : cloths_) cloth.wake();
+  }
   last_advance_ = other.last_advance_;
   steps_ = other.steps_;
   next_grab_ = other.next_grab_;
@@ -73,7 +77,7 @@ void Cloth<Real>::take_state(const Cloth& other) {
   // By other effects it has another energy.
   disturbed_ = other.disturbed_ || composed_ != other.composed_ || gravity_ != other.gravity_ ||
                bends_plate_ != other.bends_plate_ || limits_strain_ != other.limits_strain_ ||
-               damping_time_ != other.damping_time_ || (layers_ == nullptr) != (other.layers_ == nullptr);
+               damping_time_ != other.damping_time_;
   particles_ = other.particles_;
   time_ = other.time_;
   description_.pins = other.description_.pins;

@@ -80,7 +80,7 @@ class Effect {
   /// Whether it may do work on the cloth, in this wind. If not it only takes energy, but for what energy()
   /// has.
   virtual bool drives(const EffectContext&) const { return true; }
-  /// Potential energy of a force that is its gradient, J; 0 for others.
+  /// Potential energy of a force that is its gradient, J, 0 at the place of the particles; 0 for others.
   virtual double energy(const Particles<Real>&) const { return 0; }
 };
 

@@ -1,6 +1,5 @@
 #include "cloth/effects/gravity.h"
 
-#include "cloth/diagnostics.h"
 #include "cloth/kernels/node_kernels.h"
 
 namespace weft {
@@ -15,7 +14,14 @@ void Gravity<Real>::add_forces(const Particles<Real>& particles, const EffectCon
 
 template <class Real>
 double Gravity<Real>::energy(const Particles<Real>& particles) const {
-  return gravitational_energy(particles, parameters_.acceleration);
+  const Grid& grid = particles.grid();
+  double sum = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c)
+      sum -=
+          double(particles.mass.at(r, c)) * parameters_.acceleration.dot(particles.local_position_at(r, c));
+  }
+  return sum;
 }
 
 template class Gravity<float>;

@@ -99,7 +99,7 @@ TEST(HostOfScenes, StudiesASceneBesideItsSteps) {
   const json curve = guest.reader.last("curve");
   ASSERT_EQ(curve.at("levels").size(), 1U) << curve;
   EXPECT_EQ(curve.at("levels")[0].at("level"), 3);
-  EXPECT_EQ(curve.at("frames"), 30);  // half a second
+  EXPECT_EQ(curve.at("frames"), 120);  // 2 s
   // Asked for and known: the next is told at once.
   EXPECT_EQ(other.ask(R"({"op":"cost","id":1})", 1).at("op"), "ok");
   ASSERT_TRUE(other.reader.wait_until([&] { return !other.reader.last("curve").is_null(); }));

@@ -42,13 +42,20 @@ TEST_F(PutBodies, WhatMakesAStepTakeTooMuchWorkIsTakenAway) {
         command(BallAdd{.position = {0, 0.5, z}, .radius = 2, .motion = Motion::dynamic, .mass = 1e4});
     ASSERT_EQ(ok.at("op"), "ok");
   }
-  steps(1);
-  EXPECT_LT(work(), 2e7);  // the limit and one piece of work more
-  ASSERT_EQ(live.simulation().colliders().balls().size(), 1U);
-  EXPECT_EQ(live.simulation().colliders().balls()[0].id, honest.at("ball"));
-  EXPECT_EQ(other.last("event", "ball.remove").at("balls").size(), 1U);
+  int stood_still = 0;
+  for (int step = 0; step < 60; ++step) {
+    steps(1);
+    EXPECT_LT(work(), 2e7) << step;  // the limit and one piece of work more
+    stood_still += work() > 1.2e7;
+  }
+  // They push each other apart at once; those that are at the cloth when it stands still are taken away.
+  EXPECT_GE(stood_still, 1);
+  EXPECT_LE(stood_still, 3);
+  const auto& balls = live.simulation().colliders().balls();
+  EXPECT_LT(balls.size(), 61U);
+  EXPECT_NE(live.simulation().colliders().find(honest.at("ball")), nullptr);
+  EXPECT_EQ(other.last("event", "ball.remove").at("balls").size(), balls.size());
   EXPECT_FALSE(other.last("notice", "too_costly").is_null());
-  steps(2);
   EXPECT_FALSE(live.simulation().cloths()[0].frozen());
   EXPECT_LT(work(), 4 * usual);
   // Who did it puts nothing more for 10 s.
