@@ -12,7 +12,7 @@ WIND = '{"op":"wind.set","direction":[1,0,0],"speed":%g}'
 
 
 def raw(server, scene="hung"):
-    return websockets.connect(server.url(scene), subprotocols=["weft.v1"], compression=None)
+    return websockets.connect(server.url(scene), subprotocols=["weft.v1"], compression=None, close_timeout=1)
 
 
 class Floods(unittest.IsolatedAsyncioTestCase):
@@ -36,6 +36,11 @@ class Floods(unittest.IsolatedAsyncioTestCase):
             for flood in floods:
                 for i in range(39):
                     await flood.send(WIND % (0.1 * i))
+        for flood in floods:  # a pong comes after what was asked before it
+            await flood.send('{"op":"ping","t":1}')
+            async for message in flood:
+                if '"pong"' in str(message):
+                    break
         last = await viewers[0].set_wind([0, 0, -1], 7)
         for viewer in viewers:
             await viewer.next_frame(lambda frame: frame.stamp.f >= last["f"] + 30)
@@ -58,6 +63,7 @@ class Floods(unittest.IsolatedAsyncioTestCase):
             with self.assertRaises(websockets.ConnectionClosed):
                 while True:
                     await flood.send('{"op":"ping","t":1}')
+                    await asyncio.sleep(0)  # or the client would not read while it sends
             with self.assertRaises(websockets.ConnectionClosed):
                 await asyncio.wait_for(reading, GENEROUS)
         self.assertEqual((flood.close_code, flood.close_reason), (4003, "more messages a second than allowed, for too long"))
