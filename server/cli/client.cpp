@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.h"
@@ -28,7 +29,7 @@ using nlohmann::json;
 constexpr auto kConnectTime = std::chrono::seconds(5);
 /// How often the loop looks whether it was interrupted.
 constexpr auto kPoll = std::chrono::milliseconds(200);
-const std::string kScenes = "v1/scenes/";  // below the server's path
+constexpr std::string_view kScenes = "v1/scenes/";  // below the server's path
 
 struct ClientOptions {
   std::string url;
@@ -247,7 +248,7 @@ int check_health(net::Url url) {
 int client(const ClientOptions& options) {
   net::Url url = net::Url::parse(options.url);
   if (options.health) return check_health(url);
-  if (url.target.ends_with('/')) url.target += kScenes + options.scene;
+  if (url.target.ends_with('/')) url.target += std::string(kScenes) + options.scene;
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
   return Conversation(options, url).run();

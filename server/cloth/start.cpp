@@ -51,7 +51,8 @@ Particles<Real> start(const ClothDescription& description, int level) {
     throw std::invalid_argument("a cloth needs as many start positions as it has nodes at its initial level");
   }
   const auto own_place = description.sewn ? folded : flat;
-  const auto middle = static_cast<std::size_t>(grid.rows / 2 * grid.cols + grid.cols / 2);
+  const auto middle = static_cast<std::size_t>(grid.rows / 2) * static_cast<std::size_t>(grid.cols) +
+                      static_cast<std::size_t>(grid.cols / 2);
   particles.place = place_near(nodes.empty() ? description.position : nodes[middle]);
   std::size_t next = 0;
   for_each_node(grid, [&](int r, int c, double u, double v) {

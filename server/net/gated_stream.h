@@ -46,7 +46,7 @@ class GatedStream {
 
  private:
   static constexpr auto kTeardownTime = std::chrono::seconds(2);
-  static constexpr std::size_t kTeardownBytes = 256 * 1024;
+  static constexpr std::size_t kTeardownBytes = std::size_t{256} * 1024;
 
   /// Receives until something may be handed on, and hands it on.
   template <class Buffers>

@@ -47,7 +47,7 @@ LinkLoads link_loads(const Springs<Real>& springs, const VectorField<Real>& posi
   loads.v = loads.u;
   const Family<Real> along_u(springs, 0, 1), along_v(springs, 1, 0), falling(springs, 1, 1),
       rising(springs, 1, -1);
-  if (along_u.family == nullptr) return loads;
+  if (along_u.family == nullptr || along_v.family == nullptr) return loads;
   const double hx = along_u.family->rest_length, hy = along_v.family->rest_length;
   const double border_share = along_u.family->border_share;
   const auto cells = static_cast<std::size_t>(grid.cols - 1);
