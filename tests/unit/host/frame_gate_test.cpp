@@ -58,7 +58,7 @@ std::string through(FrameGate& gate, std::string_view bytes, std::size_t piece,
 TEST(FrameGate, HandsOnWhatIsWithinTheRules) {
   const std::string bytes = text("{}") + ping() + text(std::string(3000, 'a')) + frame(0x01, "b") +
                             frame(0x80, "c") + text("") + closing(1000);
-  for (const std::size_t piece : {1, 2, 3, 7, 500, 100000}) {
+  for (const std::size_t piece : {1U, 2U, 3U, 7U, 500U, 100000U}) {
     FrameGate gate(kFramesPerSecond, kStart);
     EXPECT_EQ(through(gate, bytes, piece), bytes) << piece;
     EXPECT_FALSE(gate.shut());
@@ -69,7 +69,7 @@ TEST(FrameGate, ControlFramesAndFragmentsBeyondTheRateAre1008) {
   for (const unsigned first : {0x89U, 0x8aU, 0x00U}) {  // ping, pong, a fragment in the middle
     std::string bytes = frame(0x01, "");
     for (int i = 1; i < kFramesPerSecond; ++i) bytes += frame(first, "");
-    for (const std::size_t piece : {1, 4, 100000}) {
+    for (const std::size_t piece : {1U, 4U, 100000U}) {
       FrameGate gate(kFramesPerSecond, kStart);
       EXPECT_EQ(through(gate, bytes + frame(first, "") + text("lost"), piece), bytes + substitute(1008));
       EXPECT_TRUE(gate.shut());
@@ -99,7 +99,7 @@ TEST(FrameGate, MessagesAreNotCounted) {
 TEST(FrameGate, CloseCodesThatMayNotBeSentAre1002) {
   for (const unsigned code : {0U, 1U, 999U, 1004U, 1005U, 1006U, 1014U, 1015U, 1016U, 2999U, 5000U, 65535U}) {
     EXPECT_FALSE(close_code_allowed(static_cast<std::uint16_t>(code))) << code;
-    for (const std::size_t piece : {1, 100}) {
+    for (const std::size_t piece : {1U, 100U}) {
       FrameGate gate(kFramesPerSecond, kStart);
       EXPECT_EQ(through(gate, text("a") + closing(code), piece), text("a") + substitute(1002)) << code;
     }

@@ -81,7 +81,7 @@ TEST(QualityChoices, AreKnownOverTheSpanThatTheyWereFollowedFor) {
 TEST(QualityChoices, WhichAreNoBetterOverALongerSpanAreLeftOut) {
   Study study = study_of_one_level();
   study.followed_frames = 60;
-  for (const std::size_t run : {0, 1, 2}) study.levels[0].runs[run].followed = 0.02;
+  for (const std::size_t run : {0U, 1U, 2U}) study.levels[0].runs[run].followed = 0.02;
   EXPECT_EQ(costs(choices_of(study).levels[0].front), std::vector<double>{1});
 }
 
