@@ -28,7 +28,7 @@ finish() {
 # sanitized PRESET "TARGET..." CTEST-ARGUMENT...: builds the targets under a sanitizer and runs the tests chosen.
 sanitized() {
   local preset=$1 targets
-  read -ra targets <<< "$2"
+  read -r -d '' -a targets <<< "$2" || true  # words of all lines
   shift 2
   configure "$preset" -DWEFT_BUILD_PAGE=OFF &&
     cmake --build --preset "$preset" --parallel "$(nproc)" --target "${targets[@]}" &&

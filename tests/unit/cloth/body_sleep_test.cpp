@@ -101,7 +101,7 @@ Simulation<float> sleeping(const SimulationDescription& scene) {
   return simulation;
 }
 
-TEST(BodySleep, BeginsTogetherAndKeepsAllBits) {
+TEST(BodySleepSlow, BeginsTogetherAndKeepsAllBits) {
   for (const IntegratorDescription& integrator : test::default_integrators()) {
     SCOPED_TRACE(test::name_of(integrator));
     SimulationDescription scene = lying_scene();
@@ -125,7 +125,7 @@ TEST(BodySleep, BeginsTogetherAndKeepsAllBits) {
   }
 }
 
-TEST(BodySleep, NoneWhereTheClothUnderTheBodyMovesOrTheSpeedIsZero) {
+TEST(BodySleepSlow, NoneWhereTheClothUnderTheBodyMovesOrTheSpeedIsZero) {
   SimulationDescription scene = lying_scene();
   scene.sleep_speed = 0;
   Simulation<float> awake(scene);

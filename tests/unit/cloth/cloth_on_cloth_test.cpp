@@ -56,10 +56,10 @@ const auto kImplicit = ::testing::Values(IntegratorDescription(Bdf2Description{}
 
 /// By how much heavier the upper one is than it is by itself, and the method.
 class OneInTheOther : public ::testing::TestWithParam<std::tuple<double, IntegratorDescription>> {};
-INSTANTIATE_TEST_SUITE_P(Masses, OneInTheOther, ::testing::Combine(::testing::Values(1.0, 4.0), kImplicit));
+INSTANTIATE_TEST_SUITE_P(Slow, OneInTheOther, ::testing::Combine(::testing::Values(1.0, 4.0), kImplicit));
 
 class OneOnTheOther : public ::testing::TestWithParam<IntegratorDescription> {};
-INSTANTIATE_TEST_SUITE_P(Methods, OneOnTheOther,
+INSTANTIATE_TEST_SUITE_P(Slow, OneOnTheOther,
                          ::testing::Values(IntegratorDescription(Bdf2Description{}),
                                            IntegratorDescription(BackwardEulerDescription{}),
                                            IntegratorDescription(XpbdDescription{})));
@@ -143,7 +143,7 @@ TEST_P(OneOnTheOther, WhatSticksToItsOwnClothDoesNotCreep) {
 // By their momenta they stop, which is all the energy they have: a hit of cloth on cloth has no bounce. Each
 // thinking that the other went on unhindered, they swapped velocities in explicit steps; of BDF2's, which
 // went on from their motion before the hit, they got 0.39 of it back.
-TEST(OneAgainstTheOther, SheetsThatMeetHeadOnStop) {
+TEST(OneAgainstTheOtherSlow, SheetsThatMeetHeadOnStop) {
   for (const IntegratorDescription& stepping :
        {IntegratorDescription(XpbdDescription{}), IntegratorDescription(SymplecticEulerDescription{}),
         IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {

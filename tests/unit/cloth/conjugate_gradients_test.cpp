@@ -85,7 +85,7 @@ TEST(ErrorEstimate, FollowsAGeometricFall) {
 
 // However slowly iterations find what there is, the error left, by a far finer solution, is about what was
 // asked for: at most 4.1 times; by what the last iteration alone found up to 30 times (both measured).
-TEST(ConjugateGradientsTest, ErrorIsAboutTheTargetHoweverIterationsCrawl) {
+TEST(ConjugateGradientsTestSlow, ErrorIsAboutTheTargetHoweverIterationsCrawl) {
   for (const double stiffness : {0.1, 5e3, 1e5, 1e7}) {
     for (const int nodes : {17, 65}) {
       HungSheet sheet(nodes, stiffness);
@@ -108,7 +108,7 @@ TEST(ConjugateGradientsTest, ErrorIsAboutTheTargetHoweverIterationsCrawl) {
 
 // Multigrid's point: twice the nodes a side need no more iterations. With block Jacobi alone they would
 // double each time (the square root of the condition number).
-TEST(Multigrid, IterationsDoNotGrowWithNodes) {
+TEST(MultigridSlow, IterationsDoNotGrowWithNodes) {
   for (const double stiffness : {5e3, 5e4, 5e5}) {
     const int coarse = iterations(17, stiffness);
     for (const int nodes : {33, 65, 129, 257}) {

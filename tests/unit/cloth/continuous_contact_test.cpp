@@ -257,7 +257,7 @@ TEST(ContinuousContactOfAStep, ANodeThatCutsAnEdgeGoesOnBesideIt) {
 // The sheet lies on a fixed ball, another presses it down by 5 cm more than there is room for (S9b). The
 // sheet around pulls what is between them off the ball that holds it, into the other one: after a quarter of
 // a second it lies still all the same, to a hundred-thousandth of the sheet's size.
-TEST(ContinuousContactOfAStep, WhatIsPinchedBetweenTwoBallsLiesStill) {
+TEST(ContinuousContactOfAStepSlow, WhatIsPinchedBetweenTwoBallsLiesStill) {
   SimulationDescription scene;
   scene.integrator = BackwardEulerDescription{};
   scene.time_step = 1.0 / 30;

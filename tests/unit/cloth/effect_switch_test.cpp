@@ -47,7 +47,7 @@ std::uint64_t hash_after(Simulation<Real>& simulation, int steps) {
   return state_hash(simulation);
 }
 
-TEST(EffectSwitch, WhatIsOffIsAsIfTheSceneDidNotListIt) {
+TEST(EffectSwitchSlow, WhatIsOffIsAsIfTheSceneDidNotListIt) {
   for (const IntegratorDescription& integrator : kMethods) {
     const SimulationDescription all = windy_sheet(integrator);
     Simulation<float> untouched(all);
@@ -70,7 +70,7 @@ TEST(EffectSwitch, WhatIsOffIsAsIfTheSceneDidNotListIt) {
   }
 }
 
-TEST(EffectSwitch, InMotionIsAnotherCompositionOfTheSameState) {
+TEST(EffectSwitchSlow, InMotionIsAnotherCompositionOfTheSameState) {
   // From the 8th step on: a scene that never listed it and has the state of that moment goes the same way.
   for (const IntegratorDescription& integrator : kMethods) {
     SimulationDescription all = windy_sheet(integrator);

@@ -82,7 +82,7 @@ TEST(EffectTune, ToWhatItIsChangesNoBit) {
   }
 }
 
-TEST(EffectTune, IsAsIfTheSceneListedThoseNumbers) {
+TEST(EffectTuneSlow, IsAsIfTheSceneListedThoseNumbers) {
   for (const IntegratorDescription& integrator : kTunedMethods) {
     const SimulationDescription scene = with_all(integrator);
     Simulation<float> untouched(scene);
@@ -164,7 +164,7 @@ TEST(EffectTune, WakesAClothThatSleeps) {
   EXPECT_GT(simulation.centre(0).y(), hung);  // it hangs by half the weight
 }
 
-TEST(EffectTune, LayersMoveApartToAGreaterThickness) {
+TEST(EffectTuneSlow, LayersMoveApartToAGreaterThickness) {
   // Two level sheets without gravity, 5 mm apart: three times the thickness pushes them apart by 10 mm, each
   // by no more than half of that in a step.
   for (const IntegratorDescription& integrator : kTunedMethods) {
@@ -200,7 +200,7 @@ double anywhere(double low, double high, std::mt19937& random) {
   return low < 0 && share(random) < 0.5 ? std::max(low, -size) : size;
 }
 
-TEST(EffectTune, ToAnythingInItsRangeEveryStepStaysFinite) {
+TEST(EffectTuneSlow, ToAnythingInItsRangeEveryStepStaysFinite) {
   for (const IntegratorDescription& integrator : kTunedMethods) {
     SCOPED_TRACE(integrator.index());
     SimulationDescription scene = tuned_sheet(integrator);
@@ -226,7 +226,7 @@ TEST(EffectTune, ToAnythingInItsRangeEveryStepStaysFinite) {
   }
 }
 
-TEST(EffectTune, GasToAnythingInItsRangeEveryStepStaysFinite) {
+TEST(EffectTuneSlow, GasToAnythingInItsRangeEveryStepStaysFinite) {
   for (const IntegratorDescription& integrator : kTunedMethods) {
     SCOPED_TRACE(integrator.index());
     SimulationDescription scene = tuned_sheet(integrator, true);

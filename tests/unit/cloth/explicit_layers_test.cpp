@@ -11,7 +11,7 @@ namespace weft::test {
 // Standing squares of 1 m, with the ordinary sheet's drag, fall onto their edge, and lie still 4 s later, or
 // did after 5 at the latest. Where a step held only the triangle that each node was thought to come nearest,
 // one of them shook by 0.5 mm a step for ever.
-TEST(ExplicitLayers, HeapsComeToRest) {
+TEST(ExplicitLayersSlow, HeapsComeToRest) {
   for (const double thickness : {0.005, 0.01}) {
     for (const double fall : {0.0, 0.1}) {
       SimulationDescription scene = dropped_on_edge(4, XpbdDescription{});

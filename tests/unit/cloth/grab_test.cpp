@@ -68,7 +68,7 @@ TEST(Grabs, PullThePatchByTheSpringAndNoMoreThanTheyMay) {
   }
 }
 
-TEST(Grabs, HoldAClothThatHangsFromThemAtEveryLevelWithEveryMethod) {
+TEST(GrabsSlow, HoldAClothThatHangsFromThemAtEveryLevelWithEveryMethod) {
   // Hung from one point the cloth's whole weight is on the spring: g / (20 rad/s)^2 = 24.5 mm of it.
   for (const IntegratorDescription& integrator : kIntegrators) {
     for (const int level : {4, 5}) {
@@ -175,7 +175,7 @@ TEST(PinCommands, HoldWhereTheClothIsAndLetGo) {
   }
 }
 
-TEST(PinCommands, ClampAPlateWhereTheyHoldIt) {
+TEST(PinCommandsSlow, ClampAPlateWhereTheyHoldIt) {
   // A stiff plate held by its left edge's two outer columns stands out; held by one line it hangs.
   for (const IntegratorDescription& integrator : kIntegrators) {
     SimulationDescription scene = sheet(integrator);

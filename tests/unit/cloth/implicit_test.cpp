@@ -149,7 +149,7 @@ TEST(Implicit, DragIsSolvedWithTheRest) {
 }
 
 // Stiff, slack and hopeless: finite, and never more energy than there was.
-TEST(Implicit, SurvivesWhatItCannotSolve) {
+TEST(ImplicitSlow, SurvivesWhatItCannotSolve) {
   for (const double stiffness : {1e-1, 1e7}) {
     for (const bool collapsed : {false, true}) {
       Material material;
@@ -298,7 +298,7 @@ SimulationDescription unfolding(const IntegratorDescription& stepping) {
 // Near rest gravity would give a node 0.65 m/s in a step of 1/15 s did not the springs hold it: a share of
 // that is no error to allow to a motion of millimetres a second. The error in a step's velocities is at most
 // twice (in the solve, and in what it solves) the tolerance's share of the motion, or of 1 mm/s (kSlow).
-TEST(Implicit, ErrorsNearRestAreASmallShareOfTheMotion) {
+TEST(ImplicitSlow, ErrorsNearRestAreASmallShareOfTheMotion) {
   const BackwardEulerDescription stepping;
   BackwardEulerDescription converged = exactly<BackwardEulerDescription>();
   converged.newton_iterations = 30;

@@ -175,7 +175,7 @@ TEST(FeatureSearch, FindsAllThatIsNearInAFoldAndNothingInAFlatSheet) {
 
 // Against a search of all: what the few that strayed come near is found, in less than a fifth of the pairs of
 // cells.
-TEST(FeatureSearch, LooksAgainAtWhatHasStrayed) {
+TEST(FeatureSearchSlow, LooksAgainAtWhatHasStrayed) {
   const Grid grid = Grid::with_nodes(65, 65);
   LayerNodes nodes = folded(grid);
   FeatureSearch search, anew;
@@ -228,7 +228,7 @@ TEST(FeatureSearch, GoesOnFromTheScenesSearch) {
 // Where all is near all, 4,096 cells are 8.4 million pairs of cells with 13 pairs of features
 // each: a node of either with two triangles of the other, and three edges with three. In a fold of two layers
 // cells find 23 each (measured), far below their bound.
-TEST(FeatureSearch, FindsNoMoreThanItsBounds) {
+TEST(FeatureSearchSlow, FindsNoMoreThanItsBounds) {
   const Grid grid = Grid::with_nodes(65, 65);
   LayerNodes heap = folded(grid);
   FeatureSearch search;

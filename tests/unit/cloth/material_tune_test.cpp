@@ -59,7 +59,7 @@ TEST(MaterialTune, ToWhatItIsChangesNoBit) {
   }
 }
 
-TEST(MaterialTune, IsAsIfTheClothWereMadeOfIt) {
+TEST(MaterialTuneSlow, IsAsIfTheClothWereMadeOfIt) {
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
     SimulationDescription scene = hung_sheet(integrator);
     scene.cloths[0].velocity = {0.5, -1, 0.5};  // bends, shears and pulls it
@@ -226,7 +226,7 @@ SimulationDescription on_a_plane(const IntegratorDescription& integrator, double
   return scene;
 }
 
-TEST(FrictionTune, LetsASheetGoThatItHeld) {
+TEST(FrictionTuneSlow, LetsASheetGoThatItHeld) {
   // Coulomb on a slope: held where tan 30 = 0.577 is less than the coefficient, else it slides with
   // g (sin 30 - mu cos 30), T14.
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
@@ -274,7 +274,7 @@ TEST(FrictionTune, OfABallIsAsIfItHadBeenDescribedSo) {
 
 // What integrators remember of the steps before stays right: BDF2's moves, and what XPBD's damped springs
 // hold, by spring. In wind: the bound on the energy of what nothing drives begins anew with a change.
-TEST(MaterialTune, ThereAndBackBetweenTwoStepsChangesNoBit) {
+TEST(MaterialTuneSlow, ThereAndBackBetweenTwoStepsChangesNoBit) {
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
     SCOPED_TRACE(integrator.index());
     SimulationDescription scene = hung_sheet(integrator);
@@ -294,7 +294,7 @@ TEST(MaterialTune, ThereAndBackBetweenTwoStepsChangesNoBit) {
 
 // Springs of next to no stiffness come before the others in the list, and nothing moves: XPBD's damped
 // springs go on holding what each held, by 0.3 mm if they took another's.
-TEST(MaterialTune, AddsSpringsToADampedSheetAtRest) {
+TEST(MaterialTuneSlow, AddsSpringsToADampedSheetAtRest) {
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
     SCOPED_TRACE(integrator.index());
     SimulationDescription scene = hung_sheet(integrator, 4);

@@ -131,7 +131,7 @@ SimulationDescription dropped(const ObstacleDescription& obstacle, double height
   return scene;
 }
 
-TEST(DrapedMesh, AsOverTheBox) {
+TEST(DrapedMeshSlow, AsOverTheBox) {
   // The same box, of its faces and of triangles, under a cloth that stays on its top: the same way to fall,
   // the same height to rest at.
   ObstacleDescription box = {.shape = BoxDescription{.size = {0.6, 0.4, 0.6}}, .friction = 0.5};
@@ -152,7 +152,7 @@ TEST(DrapedMesh, AsOverTheBox) {
   EXPECT_NEAR(b.position_at(8, 8).y(), 0.2, 1e-4);
 }
 
-TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
+TEST(DrapedMeshSlow, OverASphereAsOverTheBallWithinAFacetsHeight) {
   // 5000 triangles whose corners lie on a ball of 0.3 m: their middles are lower by R (1 - cos(a / 2)) = 0.73
   // mm at most, a the angle of their longest sides. The fall's bounce and the folds go their own ways; how
   // high the cloth's middle, held by friction, rests in the end does not, and no node gets inside.
@@ -188,7 +188,7 @@ TEST(DrapedMesh, OverASphereAsOverTheBallWithinAFacetsHeight) {
   EXPECT_NEAR(lowest_on_mesh, lowest_on_ball, facet + kClearance);
 }
 
-TEST(DrapedMesh, SameBitsTwiceAndWhereverElseItIsUsed) {
+TEST(DrapedMeshSlow, SameBitsTwiceAndWhereverElseItIsUsed) {
   const ObstacleDescription torus = mesh_obstacle(test::torus_mesh(0.3, 0.1, 24, 60));
   Simulation<float> a(dropped(torus, 0.15, 5)), b(dropped(torus, 0.15, 5));
   for (int step = 0; step < 120; ++step) a.step();

@@ -247,7 +247,7 @@ TEST(Place, EddiesAreAFunctionOfTheWorld) {
 }
 
 // Their places differ: one at 0, the other at 4 m.
-TEST(Place, ClothsOfDifferentPlacesMeet) {
+TEST(PlaceSlow, ClothsOfDifferentPlacesMeet) {
   const auto scene = [](double x) {
     Scene made = lying({x, 0, 0}, {{0, 0, 0, 1}, {1, 1, 0, 1}});
     ClothDescription upper = sheet({x + 0.2, 0.03, 0.05});

@@ -157,7 +157,7 @@ TEST(Resting, OthersGoOnAsIfItWereNotThere) {
 
 // --- Beside other layers ---
 
-TEST(Resting, AClothThatFallsOntoItMovesIt) {
+TEST(RestingSlow, AClothThatFallsOntoItMovesIt) {
   // From 0.3 m above, which takes 0.25 s.
   Simulation<float> simulation(test::caught(4, Bdf2Description{}));
   simulation.set_resting(0, true);

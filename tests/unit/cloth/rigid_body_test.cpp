@@ -257,7 +257,7 @@ const Collision kCollisions[] = {
 INSTANTIATE_TEST_SUITE_P(Collisions, SheetAndBox, ::testing::ValuesIn(kCollisions),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST(DynamicBox, ComesToRestOnASheet) {
+TEST(DynamicBoxSlow, ComesToRestOnASheet) {
   // Held by its four corners; at rest is what is slower than the speed below which a cloth may sleep.
   for (const IntegratorDescription& integrator :
        {IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {

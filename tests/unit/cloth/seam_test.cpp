@@ -121,14 +121,15 @@ Description solved_exactly() {
   return description;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SewnCloth,
+constexpr auto kMethodName = [](const auto& tested) {
+  return std::string(std::visit([](const auto& d) { return d.kName; }, tested.param));
+};
+INSTANTIATE_TEST_SUITE_P(Methods, SewnCloth, ::testing::Values(XpbdDescription{}), kMethodName);
+INSTANTIATE_TEST_SUITE_P(Slow, SewnCloth,
                          ::testing::Values(SymplecticEulerDescription{},
                                            solved_exactly<BackwardEulerDescription>(),
-                                           solved_exactly<Bdf2Description>(), XpbdDescription{}),
-                         [](const auto& tested) {
-                           return std::string(
-                               std::visit([](const auto& d) { return d.kName; }, tested.param));
-                         });
+                                           solved_exactly<Bdf2Description>()),
+                         kMethodName);
 
 TEST(Gas, GoesOnFromWhatIsThereIfItIsChanged) {
   SimulationDescription scene = flying(Bdf2Description{});

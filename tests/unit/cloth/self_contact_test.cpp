@@ -145,7 +145,7 @@ TEST_P(SelfContactSlow, SquareDroppedOnItsEdgeNeverCrossesItself) {
 }
 
 // At a level where its substeps are few.
-TEST(SelfContactSymplecticEuler, SquareDroppedOnItsEdgeNeverCrossesItself) {
+TEST(SelfContactSymplecticEulerSlow, SquareDroppedOnItsEdgeNeverCrossesItself) {
   expect_no_crossing_in_a_heap(dropped_on_edge(4, SymplecticEulerDescription{}));
 }
 
@@ -174,7 +174,7 @@ TEST_P(SelfContactFolds, OfADroppedSquareBringInNoEnergy) {
 }
 
 // The same of the explicit method, whose substeps are many: 0.26 J were seen where only the net held them.
-TEST(SelfContactSymplecticEuler, FoldsOfADroppedSquareBringInNoEnergy) {
+TEST(SelfContactSymplecticEulerSlow, FoldsOfADroppedSquareBringInNoEnergy) {
   SimulationDescription scene = dropped_on_edge(4, SymplecticEulerDescription{});
   Simulation<float> simulation(scene);
   const Balance folds = balance(simulation, 120);
@@ -212,13 +212,13 @@ TEST_P(SelfContactWrung, StripWrungByFourTurnsNeverCrossesItselfNorGainsEnergy) 
   EXPECT_LT(most_risen, 0.05 * put_in);
 }
 
-TEST_P(SelfContact, ClothPulledOffABallNeverCrossesItself) {
+TEST_P(SelfContactSlow, ClothPulledOffABallNeverCrossesItself) {
   Simulation<float> simulation(pulled_off(5, GetParam().description));
   EXPECT_EQ(intersections_in(simulation, 2.5), 0);
   EXPECT_TRUE(simulation.healthy());
 }
 
-TEST_P(SelfContact, ClothsOfASceneDoNotPassThroughEachOther) {
+TEST_P(SelfContactSlow, ClothsOfASceneDoNotPassThroughEachOther) {
   Simulation<float> simulation(caught(4, GetParam().description));
   EXPECT_EQ(intersections_in(simulation, 1.5), 0);
   EXPECT_TRUE(simulation.healthy());
@@ -300,7 +300,7 @@ TEST_P(SelfContact, UntanglesWhatBeginsTangled) {
 }
 
 // Levels may change at any time, whatever that does to a heap.
-TEST(SelfContactLevels, MayChangeInAHeap) {
+TEST(SelfContactLevelsSlow, MayChangeInAHeap) {
   SimulationDescription scene = dropped_on_edge(5, Bdf2Description{});
   scene.cloths[0].min_level = 3;
   Simulation<float> simulation(scene);
@@ -332,7 +332,7 @@ TEST(SelfContactLevels, TanglesAreLeftAloneUntilTheyAreFree) {
 }
 
 // A cloth that lies on another comes to rest and sleeps; what falls onto it wakes it.
-TEST(SelfContactSleep, LayersSleepAndWake) {
+TEST(SelfContactSleepSlow, LayersSleepAndWake) {
   SimulationDescription scene = on_a_slope(0, 0.3, Bdf2Description{});
   scene.sleep_speed = 1e-3;
   ClothDescription late = scene.cloths[1];

@@ -251,7 +251,7 @@ TEST(StepGuard, KeepsWhatWorkedForSixtySteps) {
   EXPECT_EQ(steps_with_four(), 1 + 60);
 }
 
-TEST(StepGuard, AFailedStepGivesBallsNothing) {
+TEST(StepGuardSlow, AFailedStepGivesBallsNothing) {
   // A ball that falls onto a cloth which cannot be stepped falls on as if there were none.
   SimulationDescription scene = hung_scene();
   scene.cloths[0].orientation = Quaternion(Eigen::AngleAxisd(-1.5707963, Vec3::UnitX()));

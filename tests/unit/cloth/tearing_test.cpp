@@ -92,7 +92,7 @@ double fall(const Cloth<float>& cloth) {
   return momentum / mass;
 }
 
-TEST(Tearing, AStripBearsItsStrengthAndNoMore) {
+TEST(TearingSlow, AStripBearsItsStrengthAndNoMore) {
   for (const IntegratorDescription& integrator : kIntegrators) {
     const double margin = std::holds_alternative<XpbdDescription>(integrator) ? 0.05 : 0.02;
     Simulation<float> holds(hung_strip(integrator, (1 + margin) * kTopLoad));
@@ -104,7 +104,7 @@ TEST(Tearing, AStripBearsItsStrengthAndNoMore) {
   }
 }
 
-TEST(Tearing, TheTearRunsAcrossThePullAndWhatFallsOffFallsFreely) {
+TEST(TearingSlow, TheTearRunsAcrossThePullAndWhatFallsOffFallsFreely) {
   for (const IntegratorDescription& integrator : kIntegrators) {
     Simulation<float> simulation(hung_strip(integrator, 0.9 * kTopLoad, 200));
     run(simulation, 40);
@@ -166,7 +166,7 @@ TEST(TearingSlow, LevelChangesKeepTheHalvesApart) {
   }
 }
 
-TEST(Tearing, APulledSheetComesApartAcrossThePull) {
+TEST(TearingSlow, APulledSheetComesApartAcrossThePull) {
   // Its lower edge is pulled down by 1 m in 2 s; every thread along the pull is cut in the end, hardly one in
   // more places than one.
   for (const IntegratorDescription& integrator : kIntegrators) {

@@ -54,7 +54,7 @@ void fourier(std::vector<std::complex<double>>& values) {
   }
 }
 
-TEST(GustSeries, HasKaimalsSpectrum) {
+TEST(GustSeriesSlow, HasKaimalsSpectrum) {
   // Mean of 32 periodograms, in bands of half a decade, against the integral of 4 T / (1 + 6 f T)^(5/3),
   // which is (1 + 6 f T)^(-2/3) between the band's ends. Over 262 time scales; a band holds four harmonics or
   // more of each series.
