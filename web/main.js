@@ -39,6 +39,7 @@ function start(settings) {
   const notices = new Map();  // what is told until it is taken back, by what it is about
   let sceneShown = null;     // whose camera place was taken: a reconnection keeps the viewer's own
   let chosenBall = null;
+  let newBall = null;        // chosen as soon as a frame has it: the answer may come before
   let retryAt = null;
 
   // --- What the viewer wants ---
@@ -71,7 +72,7 @@ function start(settings) {
     setWind: (wind) => command({op: 'wind.set', ...wind}),
     addBall: async () => {
       const reply = await command({op: 'ball.add', position: placeForBall(), radius: kBallRadius});
-      if (reply) choose(reply.ball);
+      if (reply) newBall = reply.ball;
     },
     removeBall: (ball) => command({op: 'ball.remove', ball}),
     throwBall: (ball) => {
@@ -329,7 +330,12 @@ function start(settings) {
 
   function showBalls() {
     const {ids} = show.balls;
-    if (chosenBall === null || !ids.includes(chosenBall)) choose(ids[0] ?? null);
+    if (ids.includes(newBall)) {
+      choose(newBall);
+      newBall = null;
+    } else if (!ids.includes(chosenBall)) {
+      choose(ids[0] ?? null);
+    }
     panel.setBalls(ids, chosenBall);
     panel.setBallPlace(show.balls.ball(chosenBall)?.position);
     obstacles.setPlace(show.obstacles.place(obstacles.chosen));

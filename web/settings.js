@@ -27,7 +27,7 @@ export function readSettings(address, devicePixelRatio) {
     scene: parameters.get('scene') || null,
     high,
     // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
-    pixelRatio: high ? Math.min(devicePixelRatio, 2) : 1,
+    pixelRatio: Math.min(devicePixelRatio, high ? 2 : 1),
     wireframe: parameters.get('wireframe') === '1',
     fieldOfView: fieldOfView(parameters.get('fov')),
   };

@@ -3,15 +3,10 @@ import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {createInterface} from 'node:readline';
 import {after} from 'node:test';
-import {chromium} from 'playwright-core';
+import {openChromium} from './chromium.mjs';
 
 /** Longest wait for anything: generous, since the browser draws on the processor and shares it. */
 export const kPatienceMs = 60_000;
-
-const kChromium = [
-  '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-  '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
-];
 
 const children = new Set();
 let browser = null;
@@ -62,8 +57,8 @@ export class Witness {
  * @returns {Promise<{page: import('playwright-core').Page, witness: Witness}>}
  */
 export async function openPage(address, options = {}) {
-  browser ??= await chromium.launch({executablePath: process.env.WEFT_CHROMIUM ?? '/usr/bin/chromium', args: kChromium});
-  const page = await browser.newPage({viewport: {width: 900, height: 640}, reducedMotion: 'reduce', ...options});
+  browser ??= await openChromium();
+  const page = await browser.newPage({viewport: {width: 900, height: 640}, deviceScaleFactor: 0.25, reducedMotion: 'reduce', ...options});
   page.setDefaultTimeout(kPatienceMs);
   const witness = new Witness(page);
   await page.goto(address);

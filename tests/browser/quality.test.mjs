@@ -8,7 +8,7 @@ import {openScene, startServer, until} from './harness.mjs';
 let server, page, witness;
 before(async () => {
   server = await startServer([fileURLToPath(new URL('scenes/small.json', import.meta.url))]);
-  ({page, witness} = await openScene(server, 'small'));
+  ({page, witness} = await openScene(server, 'small', {deviceScaleFactor: 1}));  // the chart's colours are read
 });
 
 const text = (id) => page.textContent(`#${id}`);
@@ -89,7 +89,8 @@ test('an error is set in per cent; what cannot be met is said', async () => {
   await page.press('#quality-number', 'Enter');
   await until(page, () => weft.stats.server.quality.wish.max_error === 1e-6);
   const seen = await shown();
-  assert.equal(seen.state, seen.quality.met ? 'Within an error of 0.0001 %.' : 'Nothing keeps an error of 0.0001 %; this comes nearest.');
+  const wish = `an error of 0.0001 % ${spanText(seen.quality.span)}`;
+  assert.equal(seen.state, seen.quality.met ? `Within ${wish}.` : `Nothing keeps ${wish}; this comes nearest.`);
   assertAgree(seen);
 });
 

@@ -1,0 +1,67 @@
+// One Chromium for all browser tests of a CTest run: `node chromium.mjs start FILE` and `node chromium.mjs stop FILE`. FILE tells the
+// tests where it is. It ends with the run, too, when that is interrupted before `stop`.
+import {spawn} from 'node:child_process';
+import {existsSync, readFileSync, renameSync, rmSync, writeFileSync} from 'node:fs';
+import {setTimeout as sleep} from 'node:timers/promises';
+import {fileURLToPath} from 'node:url';
+
+const kPollMs = 100;
+
+/** Loaded where it is needed: that takes a second. */
+const driver = async () => (await import('playwright-core')).chromium;
+
+const kLaunch = {
+  executablePath: process.env.WEFT_CHROMIUM ?? '/usr/bin/chromium',
+  args: [
+    '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+    '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+    // Only the canvas is drawn by WebGL: in software that is a slow way to draw the rest of the page.
+    '--disable-gpu-rasterization', '--disable-gpu-compositing',
+  ],
+};
+
+/** The run's Chromium if there is one, else one of the caller's own: `close()` ends what the caller began, no more. */
+export async function openChromium() {
+  const chromium = await driver();
+  const file = process.env.WEFT_SHARED_CHROMIUM;
+  return file ? chromium.connect(JSON.parse(readFileSync(file)).address) : chromium.launch(kLaunch);
+}
+
+/** Keeps a Chromium until it is told to end or the process `run` is gone. Chromium ends with this process, however that ends. */
+async function keep(file, run) {
+  let told = false;
+  process.on('SIGTERM', () => (told = true));
+  const server = await (await driver()).launchServer({...kLaunch, handleSIGTERM: false});
+  writeFileSync(`${file}.new`, JSON.stringify({address: server.wsEndpoint(), keeper: process.pid}));
+  renameSync(`${file}.new`, file);  // never seen half written
+  while (!told && runs(run)) await sleep(kPollMs);
+  await server.close();
+  rmSync(file);
+}
+
+/** Whether a process is there and has not ended: one that nobody has waited for is still listed, as Z. */
+function runs(pid) {
+  try {
+    return !readFileSync(`/proc/${pid}/stat`, 'latin1').includes(') Z ');
+  } catch {
+    return false;
+  }
+}
+
+async function start(file) {
+  rmSync(file, {force: true});
+  const keeper = spawn(process.execPath, [process.argv[1], 'keep', file, process.ppid], {detached: true, stdio: 'ignore'});
+  while (!existsSync(file) && keeper.exitCode === null) await sleep(kPollMs);
+  if (keeper.exitCode !== null) throw new Error(`Chromium's keeper ended with ${keeper.exitCode}`);
+  keeper.unref();
+}
+
+async function stop(file) {
+  process.kill(JSON.parse(readFileSync(file)).keeper, 'SIGTERM');
+  while (existsSync(file)) await sleep(kPollMs);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [, , what, file, run] = process.argv;
+  await {start, stop, keep}[what](file, Number(run));
+}
