@@ -39,6 +39,7 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
 // --- Viewers ---
 
 void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
+  tell_events();  // to those who are there: what this viewer is sent has these changes
   Seat seat;
   seat.viewer = std::move(viewer);
   seat.visit = visit;

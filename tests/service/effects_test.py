@@ -1,4 +1,5 @@
 """effect.tune, cloth.tune and friction.set over the wire: what is tuned acts from the step that is told, all viewers are told, wrong values are refused."""
+import asyncio
 import math
 import unittest
 
@@ -18,6 +19,13 @@ class Effects(unittest.IsolatedAsyncioTestCase):
         client = await weft.connect(self.server.url("falling"), on_message=told.append, timeout=GENEROUS)
         self.addAsyncCleanup(client.close)
         return client, told
+
+    async def event(self, told, kind):
+        """The newest of that kind. Frames may overtake events: it is waited for."""
+        async with asyncio.timeout(GENEROUS):
+            while not (events := [each for each in told if each.get("kind") == kind]):
+                await asyncio.sleep(0.01)
+        return events[-1]
 
     async def height_at(self, scene, f):
         """Of the cloth's centre at step f, once the scene stands there."""
@@ -65,13 +73,14 @@ class Effects(unittest.IsolatedAsyncioTestCase):
         await scene.tune_effect("aerodynamics", drag=0.5, lift=0)
         await scene.step(1)
         await watcher.next_frame(lambda frame: frame.stamp.f == 1)
-        event = next(message for message in told if message.get("kind") == "tune")
+        event = await self.event(told, "tune")
         self.assertEqual((event["effect"], event["parameters"]), ("aerodynamics", {"air_density": 0, "drag": 0.5, "lift": 0}))
         late, _ = await self.connect()
         self.assertEqual(late.scene["parameters"]["aerodynamics"], event["parameters"])
         await scene.reset()
         await watcher.next_frame(lambda frame: frame.stamp.epoch == 3)
-        self.assertEqual(next(message for message in told if message.get("kind") == "reset")["parameters"], own)
+        self.assertEqual((await self.event(told, "reset"))["parameters"], own)
+        self.assertEqual(len([each for each in told if each.get("kind") == "reset"]), 1, "the reset before it joined is not its own")
 
     async def test_wrong_values_are_refused(self):
         scene, _ = await self.begin()
@@ -98,7 +107,7 @@ class Effects(unittest.IsolatedAsyncioTestCase):
         await scene.set_friction(0.9, ball=ball)
         await scene.step(1)
         await watcher.next_frame(lambda frame: frame.stamp.f == 1)
-        events = {message["kind"]: message for message in told if message["op"] == "event"}
+        events = {kind: await self.event(told, kind) for kind in ("ball.add", "cloth.tune", "friction")}
         # Told as it is when it is told: the change that came after it may be in it.
         self.assertIn([each["friction"] for each in events["ball.add"]["balls"]], ([0.25], [0.9]))
         self.assertEqual(events["cloth.tune"]["material"], {"structural": 700, "shear": 10, "bending": 0})
