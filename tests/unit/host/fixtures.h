@@ -75,8 +75,9 @@ class Reader {
   }
 
   /// Drains, as more comes, until `done`; false if that takes longer than a generous time.
-  bool wait_until(const std::function<bool()>& done) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  bool wait_until(const std::function<bool()>& done,
+                  std::chrono::seconds patience = std::chrono::seconds(60)) {
+    const auto limit = std::chrono::steady_clock::now() + patience;
     for (;;) {
       drain();
       if (done()) return true;
