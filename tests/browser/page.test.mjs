@@ -8,7 +8,7 @@ const kInside = 0.6;  // m: a square of the cloth, whose sides are 1 m, that its
 let server, page, witness;
 before(async () => {
   server = await startServer(['zheng2020-distance', 'flag']);
-  ({page, witness} = await openScene(server, 'zheng2020-distance'));
+  ({page, witness} = await openScene(server, 'zheng2020-distance', {deviceScaleFactor: 1}));  // pixels are counted
 });
 
 const resume = async () => {

@@ -6,7 +6,7 @@ import {areaAround, differingPixels, openScene, pause, startServer, stats, until
 let page;
 before(async () => {
   const server = await startServer(['fan', 'flag']);
-  ({page} = await openScene(server, 'fan'));
+  ({page} = await openScene(server, 'fan', {deviceScaleFactor: 1}));  // pixels are counted
 });
 
 test('a zone is drawn where the scene has it, and can be hidden', async () => {

@@ -121,6 +121,7 @@ Description solved_exactly() {
   return description;
 }
 
+/// A parametrised test is named after its method.
 constexpr auto kMethodName = [](const auto& tested) {
   return std::string(std::visit([](const auto& d) { return d.kName; }, tested.param));
 };
