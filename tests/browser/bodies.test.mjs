@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {setTimeout as sleep} from 'node:timers/promises';
-import {openScene, startServer, stats, until} from './harness.mjs';
+import {openScene, skip, startServer, stats, until} from './harness.mjs';
 
 // By their places in scenes/bodies.json.
 const kBox = 1, kCapsule = 2, kShelf = 3, kHidden = 4;
@@ -22,6 +22,7 @@ const obstacleAt = ([x, y], of = page) => of.evaluate(([atX, atY]) => weft.obsta
 
 /** Waits until an obstacle has not got on by a millimetre in half a second of the scene. */
 async function rest(obstacle, of = page) {
+  await skip(server, 'bodies', 3);
   await of.evaluate(() => (window.still = null));
   await until(of, (index) => {
     const {lastFrame: {time}, obstacles} = weft.stats;

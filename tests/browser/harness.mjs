@@ -3,6 +3,8 @@ import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {createInterface} from 'node:readline';
 import {after} from 'node:test';
+import WebSocket from 'ws';
+import {connect} from '../../protocol/clients/js/weft.js';
 import {openChromium} from './chromium.mjs';
 
 /** Longest wait for anything: generous, since the browser draws on the processor and shares it. */
@@ -70,6 +72,18 @@ export async function openScene(server, scene, options) {
   const opened = await openPage(`${server.address}/?quality=low&scene=${scene}`, options);
   await until(opened.page, () => weft.stats.connected && weft.stats.cloths.length > 0);
   return opened;
+}
+
+/** Lets a scene get on by so many seconds as fast as its steps can be made: nobody has to watch it come to rest. */
+export async function skip(server, scene, seconds) {
+  const viewer = await connect(`ws://127.0.0.1:${server.port}/v1/scenes/${scene}`, {WebSocket, timeout: kPatienceMs});
+  await viewer.pause();
+  for (let left = Math.ceil(seconds / viewer.scene.dt); left > 0; left -= 600) {
+    const {f} = await viewer.step(Math.min(left, 600));
+    await viewer.nextFrame(({stamp}) => stamp.f >= f);
+  }
+  await viewer.resume();
+  viewer.close();
 }
 
 /** Waits until a condition, evaluated in the page, holds; says what the page knew when it never did. */

@@ -2,14 +2,14 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {openScene, startServer, stats, until} from './harness.mjs';
+import {openScene, skip, startServer, stats, until} from './harness.mjs';
 
 // By their places in scenes/rubbing.json, where gravity leans by 3 / 9.81.
 const kFloor = 0, kBox = 1, kLying = 0, kHung = 1;
 
-let page, other;
+let server, page, other;
 before(async () => {
-  const server = await startServer([fileURLToPath(new URL('scenes/rubbing.json', import.meta.url)), 'flag']);
+  server = await startServer([fileURLToPath(new URL('scenes/rubbing.json', import.meta.url)), 'flag']);
   ({page} = await openScene(server, 'rubbing'));
   ({page: other} = await openScene(server, 'rubbing'));
 });
@@ -18,7 +18,11 @@ const friction = (of, fieldset) => of.locator(fieldset).getByRole('spinbutton', 
 const frictionsAre = (of, wanted) => until(of, (all) => JSON.stringify(weft.stats.frictions) === JSON.stringify(all), wanted);
 const number = (of, name) => of.locator('#material').getByRole('spinbutton', {name});
 const centre = (index) => weft.stats.cloths.find((each) => each.cloth === index).centre;
-const rest = (index) => until(page, (cloth) => weft.stats.server?.cloths[cloth].state === 'asleep', index);
+
+async function rest(index) {
+  await skip(server, 'rubbing', 20);
+  await until(page, (cloth) => weft.stats.server?.cloths[cloth].state === 'asleep', index);
+}
 
 async function type(field, text) {
   await field.fill(text);

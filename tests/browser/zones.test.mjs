@@ -1,11 +1,11 @@
 // Wind zones: drawn, hidden, and set by sliders in the panel.
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
-import {areaAround, differingPixels, openScene, pause, startServer, stats, until} from './harness.mjs';
+import {areaAround, differingPixels, openScene, pause, skip, startServer, stats, until} from './harness.mjs';
 
-let page;
+let server, page;
 before(async () => {
-  const server = await startServer(['fan', 'flag']);
+  server = await startServer(['fan', 'flag']);
   ({page} = await openScene(server, 'fan', {deviceScaleFactor: 1}));  // pixels are counted
 });
 
@@ -37,8 +37,11 @@ test('its slider sets the speed of its air, along the way it blew', async () => 
 });
 
 test('without its fan the curtain hangs down; a reset has the fan again', async () => {
+  await skip(server, 'fan', 1);
   await until(page, () => weft.stats.cloths[0].centre[2] < -0.1);
   await page.fill('#zone-0', '0');
+  await until(page, () => weft.stats.wind.zones[0].velocity[2] === 0);
+  await skip(server, 'fan', 2);
   await until(page, () => weft.stats.cloths[0].centre[2] > -0.05);
   await page.click('#reset');
   await until(page, () => Math.abs(weft.stats.wind.zones[0].velocity[2] + 2.5) < 1e-9);

@@ -279,7 +279,7 @@ TEST_P(SelfContactFrictionSlow, ClothRubsOnCloth) {
 
 // What begins entangled comes free within a second and stays so. The small cloth has nothing but what leads
 // it out; the bent corner straightens itself as well, which contact with the wrong side must not hinder.
-TEST_P(SelfContact, UntanglesWhatBeginsTangled) {
+TEST_P(SelfContact, UntanglesWhatBeginsTangledSlow) {
   // XPBD's impulses hold the small cloth, which is free, where it sticks: there it stays.
   const bool xpbd = std::holds_alternative<XpbdDescription>(GetParam().description);
   for (const auto make : {poked_by_its_corner, stuck_in}) {

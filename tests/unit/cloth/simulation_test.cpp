@@ -260,7 +260,7 @@ TEST(SimulationCloths, DoNotDisturbEachOther) {
   EXPECT_EQ(with.cloths()[1].particles().grid(), (BaseCells{2, 1}.at(3)));
 }
 
-TYPED_TEST(SimulationOf, StaysSoundThroughLevelChanges) {
+TYPED_TEST(SimulationOf, StaysSoundThroughLevelChangesSlow) {
   // Up and down every sixth of a second, hung in the wind with a ball going through; cells twice as high as
   // wide.
   SimulationDescription scene = busy_scene();

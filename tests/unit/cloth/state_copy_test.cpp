@@ -266,7 +266,7 @@ TEST_P(StateCopies, GoesOnAsItsOriginal) {
 
 // What it has gone through itself is no part of it any more: where it was at another level, torn, held,
 // filled, and asleep or not.
-TEST_P(StateCopies, GoesOnAsItsOriginalWhateverItWasBefore) {
+TEST_P(StateCopies, GoesOnAsItsOriginalWhateverItWasBeforeSlow) {
   const CopyCase& each = GetParam();
   Simulation<float> original(each.scene), later(each.scene);
   const auto step = [&](Simulation<float>& simulation, int number) {

@@ -170,7 +170,7 @@ TYPED_TEST(StepGuardOf, AnAbsurdForceForOneStepFreezesForTwo) {
   }
 }
 
-TYPED_TEST(StepGuardOf, APermanentFaultFreezesOneClothAndNothingElse) {
+TYPED_TEST(StepGuardOf, APermanentFaultFreezesOneClothAndNothingElseSlow) {
   using Real = TypeParam;
   SimulationDescription scene = hung_scene();
   scene.cloths.push_back(scene.cloths[0]);
@@ -320,7 +320,7 @@ TEST(StepGuard, AFrozenClothIsTriedAtOnceAtAnotherLevel) {
 
 // --- Methods that are not stable ---
 
-TYPED_TEST(StepGuardOf, TooFewSubstepsAreMadeUpFor) {
+TYPED_TEST(StepGuardOf, TooFewSubstepsAreMadeUpForSlow) {
   // The stiffest mode needs 33 (level 4).
   for (const int substeps : {1, 2, 4, 8}) {
     SCOPED_TRACE(substeps);
@@ -368,7 +368,7 @@ TYPED_TEST(StepGuardOf, ANodeAt1000MetresASecondIsNone) {
   }
 }
 
-TYPED_TEST(StepGuardOf, ASheetDraggedAwayByAFastBallIsNone) {
+TYPED_TEST(StepGuardOf, ASheetDraggedAwayByAFastBallIsNoneSlow) {
   // Held all round and carried off by 200 m in a second, then let go.
   for (const IntegratorDescription& integrator : default_integrators()) {
     SCOPED_TRACE(test::name_of(integrator));

@@ -116,10 +116,10 @@ TEST(ParallelFor, SubnormalNumbersAreToAllWhatTheyAreToTheCaller) {
 
 /// Sanitizers make all this up to fifty times as slow.
 #ifdef WEFT_SANITIZED
-constexpr int kStackSteps = 8, kLargeSteps = 1, kRepeats = 1;
+constexpr int kStackSteps = 6, kLargeLevel = 6, kLargeSteps = 1, kRepeats = 1;
 const std::vector<int> kThreads{4};
 #else
-constexpr int kStackSteps = 60, kLargeSteps = 4, kRepeats = 3;
+constexpr int kStackSteps = 60, kLargeLevel = 7, kLargeSteps = 4, kRepeats = 3;
 const std::vector<int> kThreads{2, 8};
 #endif
 
@@ -166,7 +166,7 @@ SimulationDescription stacked_sheets() {
 SimulationDescription large_sheet() {
   SimulationDescription scene;
   ClothDescription sheet;
-  sheet.max_level = sheet.initial_level = 7;
+  sheet.max_level = sheet.initial_level = kLargeLevel;
   sheet.pins = {{0, 0, 0, 0}, {1, 1, 0, 0}};
   sheet.perturbation = 0.001;
   scene.cloths = {sheet};
@@ -303,7 +303,9 @@ TEST(Threads, BodiesAmongClothsHaveTheSameBitsOnAnyNumber) {
     }
   }
   EXPECT_TRUE(kStackSteps < 60 || (on_floor && on_another));
-  expect_same_bits(scene, kAll, kStackSteps, kStackSteps >= 60 ? 4 : 0);
+  // One that meets bodies after its step and one that solves for them.
+  expect_same_bits(scene, {SymplecticEulerDescription{}, Bdf2Description{}}, kStackSteps,
+                   kStackSteps >= 60 ? 4 : 0);
 }
 
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {

@@ -21,7 +21,7 @@ SimulationDescription at_level(int level) {
   return description;
 }
 
-TEST(StudyThread, WhatIsOfNoUseIsGivenUpAndTheNextStudied) {
+TEST(StudyThread, WhatIsOfNoUseIsGivenUpAndTheNextStudiedSlow) {
   std::promise<std::uint64_t> done;
   StudyThread study([&](std::uint64_t number, const StudyOutcome&) { done.set_value(number); });
   SimulationDescription heavy = at_level(8);

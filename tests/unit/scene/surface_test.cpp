@@ -142,7 +142,7 @@ std::string polygon(int count, const char* line_end) {
   return text.str();
 }
 
-TEST_F(SurfaceFile, FacesOfManyCornersAreRefusedBeforeTheyAreCut) {
+TEST_F(SurfaceFile, FacesOfManyCornersAreRefusedBeforeTheyAreCutSlow) {
   // The time to cut one into triangles grows with the square of its corners.
   for (const char* line_end : {"\n", "\r\n", "\r"}) {
     for (const int corners : {129, 1'000'000}) {

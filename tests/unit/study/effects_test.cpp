@@ -62,7 +62,7 @@ TEST(Effects, ASceneWithoutAnyIsAllRest) {
 }
 
 // Pillows and torn paper, too: what is measured begins at the whole state.
-TEST(Effects, OfAllPresetsAreMeasuredFromStatesThatGoOnToTheBit) {
+TEST(Effects, OfAllPresetsAreMeasuredFromStatesThatGoOnToTheBitSlow) {
   for (const scene::Preset& preset : scene::presets()) {
     SCOPED_TRACE(preset.name);
     const auto loaded = std::get<scene::Scene>(scene::load(std::string(preset.name)));

@@ -22,7 +22,7 @@ SimulationDescription made_at(int level, SimulationDescription description) {
 }
 
 /// The preset whose first level is 4 and whose pleats hold 24 J at the start.
-TEST(Levels, AStudysErrorsAreThoseOfOneProblem) {
+TEST(Levels, AStudysErrorsAreThoseOfOneProblemSlow) {
   const SimulationDescription curtain = std::get<scene::Scene>(scene::load("curtain")).simulation;
   for (const int level : {5}) {
     // A second a frame: 21 s for a reference of 2 to 64 substeps, then a run of the scene's own and this one.

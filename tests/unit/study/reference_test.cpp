@@ -22,7 +22,7 @@ double error_of(int substeps, const Reference& reference) {
   return errors_of(simulate<double>(description, {4, 20}, kGoOn), reference.answer).rms_position;
 }
 
-TEST(Reference, IntegratorsApproachItAtTheirOrder) {
+TEST(Reference, IntegratorsApproachItAtTheirOrderSlow) {
   const Reference reference = find_reference(swing(), 4, 20, 3e-6, kPlenty, kNothing);
   ASSERT_TRUE(reference.usable());
   EXPECT_LT(reference.change().rms_position, 3e-6);
@@ -35,7 +35,7 @@ TEST(Reference, IntegratorsApproachItAtTheirOrder) {
   EXPECT_NEAR(backward_euler, 2, 0.2);
 }
 
-TEST(Reference, AnotherMethodAgrees) {
+TEST(Reference, AnotherMethodAgreesSlow) {
   const Reference reference = find_reference(swing(), 4, 20, 3e-6, kPlenty, kNothing);
   SimulationDescription description = swing();
   description.integrator = SymplecticEulerDescription{800, 0.9};
@@ -61,7 +61,7 @@ TEST(Reference, RunsTwoStepSizesWhateverTheAllowance) {
 }
 
 // Hung by two corners from lying nearly flat, a limp sheet folds: what rounding does grows by orders.
-TEST(Reference, ASceneThatFoldsIsChaotic) {
+TEST(Reference, ASceneThatFoldsIsChaoticSlow) {
   SimulationDescription description;
   ClothDescription& cloth = description.cloths.emplace_back();
   cloth.orientation = Quaternion(Eigen::AngleAxisd(1.4, Vec3::UnitX()));
