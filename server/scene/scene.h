@@ -1,6 +1,6 @@
 #pragma once
 /// Scene files: JSON -> a description that can be simulated, every error named. Format: scene.schema.json and
-/// README.
+/// server/docs/scenes.md.
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>

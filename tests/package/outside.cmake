@@ -8,8 +8,13 @@ endfunction()
 
 set(prefix ${WORK_DIR}/prefix)
 file(REMOVE_RECURSE ${prefix} ${WORK_DIR}/outside)
+# The README's example is one of its programs.
+file(READ ${SOURCE_DIR}/../../README.md readme)
+string(REGEX MATCH "```cpp\n([^`]*)```" example "${readme}")
+file(WRITE ${WORK_DIR}/readme.cpp "${CMAKE_MATCH_1}")
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/outside -B ${WORK_DIR}/outside -G Ninja -DCMAKE_PREFIX_PATH=${prefix}
-    -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DREADME_EXAMPLE=${WORK_DIR}/readme.cpp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/outside)
 run(${WORK_DIR}/outside/outside)
+run(${WORK_DIR}/outside/readme)
