@@ -239,8 +239,8 @@ struct ImplicitParameters {
   /// Linearisations a substep, >= 1: fewer when one is accurate enough, more where the motion is rough or
   /// would gain energy.
   int newton_iterations = 2;
-  /// At most, a linear solve, >= 1. Of eleven presets two reach 60 in their first 40 steps; with that as the
-  /// most, springs of 1e7 N/m were stretched 1.75 times as far as allowed (S1a at level 6, 30 Hz).
+  /// Largest number of iterations of a linear solve, >= 1. With 60, which some presets reach, springs of
+  /// 1e7 N/m are stretched 1.75 times as far as with 200.
   int linear_iterations = 200;
   bool operator==(const ImplicitParameters&) const = default;
 };

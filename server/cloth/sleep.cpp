@@ -6,9 +6,7 @@
 namespace weft {
 namespace {
 
-/// A cloth this many times faster than the threshold is not watched, at 1 m/s by default. Nodes of XPBD's
-/// heap that layers and springs press together have 0.2 m/s as each substep ends, and stay where they are
-/// (S51a).
+/// A cloth faster than this many times the threshold (1 m/s by default) is not watched: it cannot rest.
 constexpr double kPlainlyMoving = 10000;
 
 template <class Real>

@@ -73,8 +73,8 @@ Case met(std::string name, std::string what, double seconds, Made scene) {
 
 /// Besides, what the hands put in less what the strip has may not grow by more than a twentieth: contact only
 /// takes energy. Not of XPBD and explicit methods, whose layers are held apart in a rope so tight at their
-/// springs' cost (scenes.md, cloth_contact), nor of longer steps, in which a hand turns by 24 degrees and more:
-/// its work is the trapezoidal rule's no more.
+/// springs' cost (scenes.md, cloth_contact), nor of longer steps, in which a hand turns by 24 degrees and
+/// more: its work is the trapezoidal rule's no more.
 class WorkOfHands {
  public:
   explicit WorkOfHands(const Setup& setup) : crosses_(nothing_crosses(setup)), counts_(claims(setup)) {}

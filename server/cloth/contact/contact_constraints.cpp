@@ -122,9 +122,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   return made;
 }
 
-/// A step is solved as accurately as its motion asks for, and a contact gives so little that one force alone
-/// may be many times what it should be: under a sheet of 4 N a ball that rolled was pressed by 80 N, and drew
-/// it along until a corner was stretched by 0.13, with this by 0.06 (S20a, BDF2, level 6, 15 Hz).
+/// Median of this step's force and the last two. A step is solved as accurately as its motion needs, and a
+/// contact is so stiff that a single force may be many times too large.
 template <class Real>
 double ContactConstraints<Real>::Constraint::usual_force() const {
   if (last_force < 0) return force;

@@ -27,8 +27,8 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// that is heavier than they are would gain energy without bound.
 ///
 /// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
-/// will have it: both would squeeze it out sideways, and stretch its springs at nobody's cost. It is not let
-/// go there, whatever pulls: it would go into the other one, and be put back after each step (S9b).
+/// does: both would squeeze it out sideways and stretch its springs without doing work. It is not released
+/// there, whatever pulls: it would enter the other solid and be projected out after each step.
 ///
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
 /// iteration has put into one from the next on: put there after the step they would stretch their springs at

@@ -120,8 +120,8 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
     c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
     if (c.body && c.force > 0) pressed_.push_back(c.touch);
     const bool turning = c.body && solid_of(c.touch, solids).yields_turning();
-    // What goes less than half through is not held on the far side. A node of a swinging sheet that cut 4 mm
-    // of a box's edge, put back onto the face that it came from, stretched its links by 0.88 (S54b, BDF2).
+    // A node that passes less than half through a solid is not pushed back to the face that it came from:
+    // around an edge that would stretch its links.
     const bool near = !c.body && (moved - c.solid_move).squaredNorm() < c.width * c.width;
     if (turning || near) kept_aside_.push_back(c.touch);
   }

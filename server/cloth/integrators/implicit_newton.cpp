@@ -9,59 +9,44 @@
 namespace weft {
 namespace {
 
-/// Newton iterations added at most when those asked for are rough or bring in energy: half a turn a frame
-/// takes one, a crumpled sheet all.
+/// Newton iterations added at most when those asked for are rough or gain energy, and after contacts were
+/// added.
 constexpr int kSpareIterations = 8, kMoreIterations = 3;
-/// A linearisation off by more than this share of the motion's energy is made again; at 0.1 rad a frame it is
-/// not. Near rest none may be off by more than a solve.
+/// A linearisation whose error exceeds this share of the kinetic energy is repeated. Near rest the error may
+/// not exceed that of a solve.
 constexpr double kRough = 0.2;
-/// Where a sheet that meets itself lies on something: what a linearisation misses there heaps fold up with. A
-/// square that falls on its edge rose by up to 0.03 J of the 0.54 that it has, in eight falls at two levels.
+/// The same for a sheet in contact with itself that lies on a solid.
 constexpr double kRoughHeap = 0.02;
-/// Further rounds in which a heap's nodes that the last iteration has put into a solid are held. Without,
-/// what puts them out of it brings in up to 0.006 J there.
+/// Further rounds that hold nodes of such a sheet which the last iteration has moved into a solid: projection
+/// after the step would add energy.
 constexpr int kHeapRounds = 4;
-/// Nor is one off by more than so many nodes' share of that energy in a single spring: a fold that runs
-/// through a stiff sheet would stretch the few springs in it far beyond their strain. A curtain, a flag or a
-/// drape stays below 2; a cushion blown up at one blow does not, and takes a tenth more iterations meanwhile.
+/// Largest error of the linearisation in a single spring, in nodes' shares of the kinetic energy: a fold that
+/// runs through a stiff sheet would overstretch the few springs in it.
 constexpr double kRoughSpring = 8;
-/// Nor is one by which a spring ends this share of its length past a strain limit that it was short of: the
-/// limit's stiffness was not in the system. A sheet of limit 5 % that is jerked at 10 m/s (S21, BDF2 at level
-/// 6 and 15 Hz) was left 6.6 % past it; in 16 runs of tolerances 0.2 % apart it was stretched by 11.6 % in
-/// 12, and is by at most 10.0 %, mostly 8.2 %. With 0.04 mostly 9.6 %.
+/// Share of its length by which a spring may end beyond a strain limit that it was short of: the limit's
+/// stiffness was not in the system.
 constexpr double kStruck = 0.01;
-/// Spare iterations that take whole changes. Those after them are searched, as Newton's method then runs to
-/// and fro between states that each linearisation misjudges: unsearched, a ribbon with cells of 1 : 100 is
-/// left with a spring stretched by 31 %. Not in contact, which the search does not know.
+/// Spare iterations that take whole changes. Those after them are searched, since Newton's method then
+/// alternates between states that each linearisation misjudges. Not in contact, which the search does not
+/// know.
 constexpr int kWholeSpareIterations = 4;
-/// While the searched ones leave one spring misjudged by kRoughSpring there are so many spare ones: where
-/// they ended after 8, that spring was left as it was. Of 48 falls of that ribbon (S12, backward Euler at
-/// level 6 and 30 Hz, tolerances 0.2 % apart) 8 ended up with one stretched by more than 5 %, up to 11.6 %;
-/// now none does, at most 4.6 %, in no more linear iterations. To search from the first spare one on is no
-/// way: BDF2 then overstretches the ribbon at level 5 and 15 Hz in 5 of 20 falls, in none if not.
+/// Number of searched iterations while a spring is misjudged by kRoughSpring.
 constexpr int kSpareSearches = 24;
-/// A whole change that brings in so many times what it was to gain, and strains all springs by this on
-/// average, is wild, and is halved until it is not: the next linearisations take long to find back, and what
-/// is held apart meanwhile meets nowhere else. A light strip without stiffness to shear (6e5 N/m) that lies
-/// in folds at rest got 85 J so; it has no more than 0.0001. A flag in the wind takes 0.95 times the
-/// instructions, other presets as many as before. Less strain is not wild: a stiff sheet that comes to rest
-/// (S1a, 1e7 N/m) needs whole changes, and takes 10 s with them, 23 s without.
+/// A whole change that adds so many times the energy that it was to remove, and strains all springs by
+/// kWildStrain on average, is halved until it does not: the next linearisations would take long to return.
 constexpr double kWild = 10, kWildStrain = 0.01;
-/// A shorter share of a change is none.
+/// Shortest share of a change that a search tries.
 constexpr double kSmallestShare = 1e-4;
-/// A change that lowers the energy by less than this share of the motion's is not missed when it is dropped.
+/// A change that is dropped does not matter if it lowers the energy by less than this share of the motion's.
 constexpr double kMissedShare = 1e-3;
 
-/// Of energies that are added up and taken from each other, in units of the scalar's last digit: what cannot
-/// be told from a gain is none that may be taken. A flat sheet of 0.3 m and 6e5 N/m at rest had 5 J after a
-/// second, of forces that are nothing but rounding: the first change stretches it by metres.
+/// Rounding of energies that are summed and subtracted, in units of the scalar's last digit: less cannot be
+/// told from a gain.
 constexpr double kRounding = 4;
-/// The same of what a solve gains: its directions gain and lose far more than their sum, each to the last
-/// digit. Two crumpled sheets at rest (1e5 times what is left, each iteration) got 3.5 mJ where 0.9 are
-/// allowed.
+/// The same of what a solve gains: its directions gain and lose far more than their sum.
 constexpr double kSolveRounding = 300;
 
-/// Of a linearisation and what is asked of its change, a node (WorkLimit).
+/// Work of a linearisation and of judging its change, a node (WorkLimit).
 constexpr double kWorkOfNewton = 10;
 
 }  // namespace

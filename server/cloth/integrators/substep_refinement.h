@@ -15,14 +15,14 @@ namespace weft {
 ///    than a tenth of their length in one by what yields to the cloth, than 0.15 by what does not. A thread
 ///    of wave speed c struck across at v is stretched by e, v = c sqrt(2) e^(3/4) (Smith, McCrackin, Schiefer
 ///    1958, "Stress-strain relationships in yarns subjected to rapid impact loading"), and substeps of h let
-///    no wave be faster than l / (h sqrt(2)): of springs of length l they stretch 5 and 8 %. Too soft for the
-///    blow, a sheet thrown at 100 m/s was drawn past a rail of 10 cm mesh by mesh (S53c). Only where substeps
-///    soften springs by more than 5 %;
+///    no wave be faster than l / (h sqrt(2)): of springs of length l they stretch 5 and 8 %. A sheet too soft
+///    for the blow is drawn past a thin rail cell by cell. Only where substeps soften springs by more than
+///    5 %;
 ///  - under a pressure p, of gas or of wind, for a sheet of side L to be as stiff as p L; half as stiff it
 ///    bursts (inflation.h). Substeps of h leave a spring k between masses m no stiffer than 1 / (1 / k + 2
-///    h^2 / m). In a jet of 60 m/s a sheet was blown up until it stayed tangled (S57);
-///  - where a hand pulls with F on a patch of width w, for it to be as stiff as F / w. In a step of 1/15 s it
-///    was drawn out by more than half (S58): too late for what is asked for by stretch.
+///    h^2 / m);
+///  - where a hand pulls with F on a patch of width w, for it to be as stiff as F / w: what stretch asks for
+///    would come too late.
 ///
 /// So many substeps are kept while fewer would leave springs stretched by more than 5 % that by their own
 /// stiffness are stretched by less: a tangled sheet's, which bear a good part of its weight each.

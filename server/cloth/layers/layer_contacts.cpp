@@ -11,23 +11,20 @@
 namespace weft {
 namespace {
 
-/// Stiffness of a contact, as a multiple of the inertia of the nodes that meet. The least leaves a depth of g
-/// h^2 / 50 under a layer's own weight, 55 micrometres at 60 Hz; conjugate gradients take the longer the more
-/// it is.
+/// Least and greatest stiffness of a contact, as multiples of the inertia of the nodes that meet.
 constexpr float kSoft = 50, kStiff = 5000;
-/// Searches for what meets, a substep; pairs that come as near as so many of the net's gaps are looked at,
-/// or found where all is searched, and are then held this part of their own apart at least. A strip wrung by
-/// four turns had, without them, eight times its work put in by the net, and with them a fifteenth.
+/// Searches for pairs that would meet, a substep. Distances, in gaps of the net, at which pairs are looked at
+/// and are searched; and the least distance at which those that would meet are held, in their own gap.
 constexpr int kMostRounds = 4;
 constexpr double kPairsInSight = 1.5, kPairsFound = 8, kMeetingPart = 0.4;
-/// Pairs in which a node, or the edges that begin at it, are held anew in a round: a bound on memory.
+/// Most pairs of a node, or of the edges that begin at it, that a round adds: bounds memory.
 constexpr std::uint8_t kMostOfNode = 128;
-/// By how much it changes in a step, and the parts of the gap above and below which it does.
+/// Factors by which a stiffness grows and falls in a step: it grows where a pair keeps less than kHardlyKept
+/// of its gap, and falls where all keep more than kKept.
 constexpr float kStiffer = 4, kSofter = 0.7F;
 constexpr double kKept = 0.8, kHardlyKept = 0.4;
-/// Near rest layers are led apart to this part of their gap (kLayersLedApart). Led on to the whole gap, the
-/// many pairs of one contact, of which not all can have it at once, push each other to and fro: a heap at
-/// rest on a floor (S51a, level 6) shook by 0.4 mm. On a cloth that stands still there is no to and fro.
+/// Share of the gap to which layers near rest are separated. Not all pairs of a contact can have the whole
+/// gap at once: separated that far they would push each other to and fro.
 constexpr double kWellApart = 0.5;
 
 double led(double distance, double gap, bool near_rest) {

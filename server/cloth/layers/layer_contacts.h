@@ -46,21 +46,22 @@ struct LayerParameters {
 /// To an explicit substep it is an inelastic impulse, and a drag on what separates slowly; and what it misses
 /// within the cloth SubstepNet holds.
 ///
-/// Each cloth is stepped by itself, and sees another's nodes as free masses with the velocity they have, so
-/// that both share a hit's impulse by their masses and keep their momentum as far as either foresees the
-/// other. From substep to explicit substep they go on with what it gives them: thought to go on unhindered,
-/// they swapped velocities with it, and two sheets on each other shook for ever. And they are borne as they
-/// were in the steps before (LayerNodes::support): thought to give way to a sheet on them, they bore half of
-/// its weight in one step and more in the next (S51c, XPBD, shook by 3 mm for ever). To an implicit step
-/// these masses are in series with the constraint's spring, and the force that pushes on is the mean of what
-/// both have found (share_forces): so each feels the other's weight, and they come to rest on each other. Of
-/// a hit's force no more is carried on than the step before carried and the nodes' own weight, and nothing of
-/// what was found against a cloth that slept: a spring so soft takes it back only where both fly apart (a
-/// sheet lying on one that woke was thrown 1.4 m up, S51d, level 5, BDF2 at 15 Hz). Near
-/// rest what sticks also goes on with the friction that held it: found anew in each step it would creep. In a
-/// contact's first steps, which know no such force, the masses also have the acceleration they had but for
-/// contact. (Later that is mostly the stiff springs' noise, as it is in explicit steps: two cloths on each
-/// other shook by 2 mm a step for ever.)
+/// Each cloth is stepped by itself and sees another's nodes as free masses with their present velocity. Both
+/// share the impulse of a hit by their masses and keep their momentum as far as each foresees the other.
+///  - From explicit substep to substep the other's nodes keep the velocity that the impulse gives them.
+///    Otherwise two sheets on each other would swap velocities for ever.
+///  - They are supported as in the steps before (LayerNodes::support). Otherwise they would bear half of a
+///    sheet's weight in one step and more in the next.
+///  - To an implicit step these masses are in series with the constraint's spring, and the force that is
+///    carried on is the mean of what both have found (share_forces): each feels the other's weight.
+///  - Of the force of a hit no more is carried on than the step before carried plus the nodes' own weight,
+///  and
+///    nothing of what was found against a sleeping cloth: the soft spring would return it only where both fly
+///    apart.
+///  - Near rest a sticking contact keeps the friction that held it; computed anew in each step it would
+///  creep.
+///  - In a contact's first steps, which have no such force, the masses also keep their acceleration without
+///    contact. Later that is mostly the noise of stiff springs and is left out.
 template <class Real>
 class LayerContacts {
  public:

@@ -9,19 +9,18 @@
 namespace weft {
 namespace {
 
-/// The net keeps features apart by this part.
+/// Share of the gap that the net keeps features apart by.
 constexpr double kNetPart = 0.1;
 
-/// Inverse mass, to the net, of a node on a solid, as a part of its own. Of two sheets on a floor the lower
-/// one was put up to 1.1 mm into it in steps of 1/15 s (S51d).
+/// Inverse mass, to the net, of a node on a solid, relative to its own: the net must not push it into that.
 constexpr double kOnSolid = 0.1;
 
-/// Times that the net is made again with what solids have held up. Then the solids have the last word: what
-/// has to give way to both is rather in other cloth, which leads it out (untangle), than in a solid.
+/// Repetitions of the net with what solids have held up. After them solids decide: a node that has to yield
+/// to both may enter other cloth, which is separated later (untangle), but no solid.
 constexpr int kNetRounds = 3;
 
-/// Inverse mass, to the net, of what a solid has held up, as a part of its own. Were it none, what has a
-/// small share in a meeting with it would go by the inverse of that share, 2 km once.
+/// Inverse mass, to the net, of what a solid has held up, relative to its own. With 0 a node of small weight
+/// in a pair would move by the inverse of that weight.
 constexpr double kHeldUp = 0.01;
 
 template <class Real>

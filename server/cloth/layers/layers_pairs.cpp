@@ -11,16 +11,15 @@ namespace {
 /// Nearer features may have passed through each other by rounding, m.
 constexpr double kTouching = 1e-6;
 
-/// What moves faster than this rouses a sleeping cloth that it touches, m/s.
+/// A cloth that moves faster wakes a sleeping one that it touches, m/s.
 constexpr double kRousing = 0.01;
 
-/// Explicit substeps hold all pairs that lie within their gap, be it aslant: beyond a triangle's rim a node
-/// is as near as it is high (contact_normal), this times farther at most. Where a step held only those
-/// nearest by their velocities, as implicit ones do, it missed what pressed in the step before, and nodes of
-/// a heap shook by 0.7 mm from step to step for ever (S51a, level 6).
+/// Explicit substeps hold all pairs within this times their gap: beyond a triangle's rim the distance of a
+/// node is its height (contact_normal), which may be smaller by this factor. If only the nearest pairs by
+/// velocity were held, as in implicit steps, those that pressed in the step before would be missed.
 constexpr double kAslant = std::numbers::sqrt2;
 
-/// Pairs of edges that are held, of those that begin at one node: a bound on memory.
+/// Most pairs of edges that are held of those that begin at one node: bounds memory.
 constexpr std::uint16_t kMostEdges = 128;
 
 /// The features as they will lie, or, if they would pass through each other, as they meet: what slides past
