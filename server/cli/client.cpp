@@ -15,7 +15,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/mesh_writer.h"
-#include "cloth/clock.h"
+#include "cloth/core/clock.h"
 #include "net/client.h"
 #include "protocol/frame.h"
 #include "protocol/message.h"

@@ -14,7 +14,7 @@
 #include "cli/problems.h"
 #include "cli/progress.h"
 #include "cli/writers/output_file.h"
-#include "cloth/parallel.h"
+#include "cloth/core/parallel.h"
 #include "scene/scene.h"
 #include "study/effects.h"
 #include "study/quality.h"

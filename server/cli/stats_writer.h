@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/writers/output_file.h"
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::cli {
 

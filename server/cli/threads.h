@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "cloth/parallel.h"
+#include "cloth/core/parallel.h"
 
 namespace weft::cli {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "host/viewer.h"
 #include "protocol/frame.h"
 

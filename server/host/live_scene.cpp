@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "host/scene_messages.h"
 #include "host/tuning.h"
 

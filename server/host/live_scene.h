@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "host/event_queue.h"
 #include "host/frame_encoder.h"
 #include "host/guard_log.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "host/live_scene.h"
 #include "host/refusal.h"
 #include "protocol/member.h"

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "cloth/vec3.h"
+#include "cloth/core/vec3.h"
 #include "protocol/message.h"
 
 namespace weft::host {

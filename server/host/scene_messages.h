@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "host/seat.h"
 #include "scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cloth/interrupt.h"
+#include "cloth/core/interrupt.h"
 #include "host/arithmetic.h"
 #include "host/scene_messages.h"
 #include "host/server_clock.h"

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/grab_id.h"
-#include "cloth/level_policy.h"
-#include "cloth/relevance.h"
-#include "cloth/vec3.h"
+#include "cloth/core/grab_id.h"
+#include "cloth/core/vec3.h"
+#include "cloth/levels/level_policy.h"
+#include "cloth/levels/relevance.h"
 #include "host/viewer.h"
 
 namespace weft::host {

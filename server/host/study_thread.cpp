@@ -9,8 +9,8 @@
 #include <exception>
 #include <utility>
 
-#include "cloth/interrupt.h"
-#include "cloth/parallel.h"
+#include "cloth/core/interrupt.h"
+#include "cloth/core/parallel.h"
 #include "host/arithmetic.h"
 #include "study/thread_time.h"
 

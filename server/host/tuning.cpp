@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "cloth/effects/effect.h"
+#include "cloth/forces/effect.h"
 #include "protocol/member.h"
 #include "scene/effect_parameters.h"
 #include "scene/material_parameters.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 #include "protocol/message.h"
 
 namespace weft::host {

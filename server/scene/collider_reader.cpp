@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "cloth/contact/mass_properties.h"
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/mass_properties.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "scene/readers.h"
 
 namespace weft::scene {

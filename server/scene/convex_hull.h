@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::scene {
 

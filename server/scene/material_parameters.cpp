@@ -4,7 +4,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "cloth/effects/effect.h"
+#include "cloth/forces/effect.h"
 
 namespace weft::scene {
 namespace {

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::scene {
 

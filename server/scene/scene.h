@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 
 namespace weft::scene {
 

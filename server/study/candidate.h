@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 
 namespace weft::study {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "study/thread_time.h"
 #include "study/trajectory.h"
 

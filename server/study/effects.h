@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 
 namespace weft::study {
 

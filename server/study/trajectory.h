@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::study {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "scene/scene.h"
 
 namespace {

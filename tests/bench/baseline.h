@@ -5,7 +5,7 @@
 /// motion.
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::bench {
 

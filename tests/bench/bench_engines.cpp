@@ -7,7 +7,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "cloth/parallel.h"
+#include "cloth/core/parallel.h"
 #include "engines/requirement.h"
 
 namespace weft::bench {

@@ -1,11 +1,11 @@
 /// What the parts of a step cost, at each level: Google Benchmark, items are nodes.
 #include <benchmark/benchmark.h>
 
-#include "cloth/contact/contact.h"
-#include "cloth/diagnostics.h"
+#include "cloth/contact/recovery/contact.h"
 #include "cloth/integrators/integrator.h"
-#include "cloth/refine.h"
-#include "cloth/springs.h"
+#include "cloth/levels/refine.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/springs.h"
 
 namespace weft::bench {
 namespace {

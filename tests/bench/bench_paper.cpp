@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "baseline.h"
-#include "cloth/parallel.h"
+#include "cloth/core/parallel.h"
 #include "scene/scene.h"
 #include "timing.h"
 

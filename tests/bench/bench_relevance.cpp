@@ -7,7 +7,7 @@
 #include <iostream>
 #include <vector>
 
-#include "cloth/parallel.h"
+#include "cloth/core/parallel.h"
 #include "engines/many_cloths.h"
 #include "host/live_scene.h"
 #include "timing.h"

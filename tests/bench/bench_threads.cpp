@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "cloth/parallel.h"
-#include "cloth/simulation.h"
+#include "cloth/core/parallel.h"
+#include "cloth/world/simulation.h"
 #include "engines/many_cloths.h"
 #include "timing.h"
 

@@ -5,7 +5,7 @@
 
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/integrators/xpbd.h"
-#include "cloth/refine.h"
+#include "cloth/levels/refine.h"
 
 namespace weft::stability {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <numbers>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "criteria.h"
 #include "passages.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/diagnostics.h"
 #include "cloth/integrators/softened_springs.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft::stability {
 namespace {

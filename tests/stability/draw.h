@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "cloth/vec3.h"
+#include "cloth/core/vec3.h"
 
 namespace weft::stability {
 

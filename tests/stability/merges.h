@@ -1,7 +1,7 @@
 #pragma once
 /// What a change to a coarser level brings in that no way of making it could leave out: across a fold that
 /// the finer grid has and the coarser one has not, springs lie compressed for as long as the fold is held.
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::stability {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/effects/grab.h"
+#include "cloth/forces/grab.h"
 #include "criteria.h"
 #include "merges.h"
 #include "random_loads.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/contact/triangle_mesh.h"
-#include "cloth/effects/effect.h"
-#include "cloth/step_guard.h"
+#include "cloth/forces/effect.h"
+#include "cloth/guard/step_guard.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "random_surroundings.h"
 
 namespace weft::stability {

@@ -1,5 +1,5 @@
 #pragma once
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::stability {
 

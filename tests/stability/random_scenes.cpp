@@ -1,7 +1,7 @@
 #include "random_scenes.h"
 
 #include "cloth/integrators/symplectic_euler.h"
-#include "cloth/refine.h"
+#include "cloth/levels/refine.h"
 #include "draw.h"
 #include "random_surroundings.h"
 

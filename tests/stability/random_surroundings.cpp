@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::stability {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 #include "draw.h"
 
 namespace weft::stability {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <memory>
 
-#include "cloth/diagnostics.h"
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/sheet/diagnostics.h"
 #include "criteria.h"
 
 namespace weft::stability {

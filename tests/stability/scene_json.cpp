@@ -1,6 +1,6 @@
 #include "scene_json.h"
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::stability {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 
 namespace weft::stability {
 

@@ -1,5 +1,5 @@
 // strain_damping: a mode of angular frequency w decays at tau w^2 / 2, a body that turns or flies does not.
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "methods.h"
 
 namespace weft::test {

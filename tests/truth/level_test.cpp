@@ -1,6 +1,6 @@
 // T18: one sheet at several levels approaches one answer, with the error falling as the square of the cell
 // (order 2); and by how much the paper's own rules do not.
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "methods.h"
 
 namespace weft::test {

@@ -1,8 +1,8 @@
 // Falls (T1, T2, T16), the limit of stability (T5), momentum (T15), friction (T14) for every method.
 #include <tuple>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "meshes.h"
 #include "methods.h"
 

@@ -1,5 +1,5 @@
 // A pillow of two squares sewn together: what it holds, and that its gas keeps p V.
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "methods.h"
 
 namespace weft::test {

@@ -2,7 +2,7 @@
 // origin, by every method, in single precision.
 #include <cmath>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "methods.h"
 
 namespace weft::test {

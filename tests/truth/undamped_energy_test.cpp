@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "methods.h"
 #include "scene/scene.h"
 

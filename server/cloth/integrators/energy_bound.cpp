@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cloth/diagnostics.h"
-#include "cloth/motion.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/motion.h"
 
 namespace weft {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "cloth/clock.h"
-#include "cloth/motion.h"
-#include "cloth/solver/node_vector.h"
-#include "cloth/tear/pieces.h"
+#include "cloth/core/clock.h"
+#include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/motion.h"
+#include "cloth/sheet/tear/pieces.h"
 
 namespace weft {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "cloth/contact/contact_constraints.h"
+#include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/energy_bound.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/motion_scale.h"

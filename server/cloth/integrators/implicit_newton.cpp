@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "cloth/core/interrupt.h"
 #include "cloth/integrators/implicit.h"
-#include "cloth/interrupt.h"
-#include "cloth/solver/node_vector.h"
+#include "cloth/kernels/node_vector.h"
 
 namespace weft {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "cloth/diagnostics.h"
 #include "cloth/integrators/implicit.h"
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/integrators/xpbd.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft {
 

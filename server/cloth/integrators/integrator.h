@@ -1,14 +1,14 @@
 #pragma once
 #include <memory>
 
-#include "cloth/contact/contact.h"
-#include "cloth/effects/effect.h"
-#include "cloth/effects/gas.h"
-#include "cloth/layers/layer_contacts.h"
-#include "cloth/pins.h"
-#include "cloth/plate.h"
-#include "cloth/seam.h"
-#include "cloth/springs.h"
+#include "cloth/air/gas.h"
+#include "cloth/contact/constraints/layer_contacts.h"
+#include "cloth/contact/recovery/contact.h"
+#include "cloth/forces/effect.h"
+#include "cloth/sheet/pins.h"
+#include "cloth/sheet/plate.h"
+#include "cloth/sheet/seam.h"
+#include "cloth/sheet/springs.h"
 
 namespace weft {
 

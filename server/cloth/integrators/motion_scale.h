@@ -1,7 +1,7 @@
 #pragma once
-#include "cloth/particles.h"
+#include "cloth/core/particles.h"
+#include "cloth/sheet/springs.h"
 #include "cloth/solver/conjugate_gradients.h"
-#include "cloth/springs.h"
 
 namespace weft {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "cloth/description.h"
-#include "cloth/springs.h"
+#include "cloth/core/description.h"
+#include "cloth/sheet/springs.h"
 
 namespace weft {
 

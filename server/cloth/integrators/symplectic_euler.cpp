@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
-#include "cloth/clock.h"
-#include "cloth/interrupt.h"
+#include "cloth/core/clock.h"
+#include "cloth/core/interrupt.h"
 #include "cloth/kernels/node_kernels.h"
-#include "cloth/solver/node_vector.h"
+#include "cloth/kernels/node_vector.h"
 
 namespace weft {
 namespace {

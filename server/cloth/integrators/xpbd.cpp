@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cloth/clock.h"
-#include "cloth/interrupt.h"
+#include "cloth/core/clock.h"
+#include "cloth/core/interrupt.h"
 #include "cloth/kernels/limited_kernels.h"
 #include "cloth/kernels/torn_kernels.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 namespace weft::kernels {
 namespace {

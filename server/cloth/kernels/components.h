@@ -1,7 +1,7 @@
 #pragma once
 #include <type_traits>
 
-#include "cloth/grid.h"
+#include "cloth/core/grid.h"
 
 /// Kernels are row loops that the compiler vectorises for several instruction sets (multiversion.h). They
 /// know no Eigen: its types change with the instruction set.

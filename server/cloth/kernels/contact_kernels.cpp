@@ -3,7 +3,7 @@
 #include <bit>
 #include <type_traits>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 namespace weft::kernels {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 // Apart from contact_kernels.cpp: winds with zones have it without contact.
 namespace weft::kernels {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/link_kernels.h"
-#include "cloth/multiversion.h"
 
 /// How link kernels go through a grid; for their .cpp files only.
 namespace weft::kernels {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 namespace weft::kernels {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 namespace weft::kernels {
 namespace {

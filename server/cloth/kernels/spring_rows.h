@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/spring_kernels.h"
-#include "cloth/multiversion.h"
 
 /// How spring forces go through a grid; for kernels' .cpp files only.
 namespace weft::kernels::spring_rows {

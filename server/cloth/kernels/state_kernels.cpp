@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "cloth/multiversion.h"
+#include "cloth/core/multiversion.h"
 
 namespace weft::kernels {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/cosine.h"
-#include "cloth/multiversion.h"
 
 namespace weft::kernels {
 namespace {

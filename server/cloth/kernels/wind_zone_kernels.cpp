@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/wind_kernels.h"
-#include "cloth/multiversion.h"
 
 // Apart from wind_kernels.cpp: a wind without zones is linked without this.
 namespace weft::kernels {

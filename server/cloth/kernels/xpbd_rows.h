@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/xpbd_kernels.h"
-#include "cloth/multiversion.h"
 
 /// How a family's springs are gone through colour by colour; for kernels' .cpp files only.
 namespace weft::kernels::xpbd_rows {

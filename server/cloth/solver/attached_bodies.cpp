@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "cloth/solver/node_vector.h"
+#include "cloth/kernels/node_vector.h"
 
 namespace weft {
 namespace {

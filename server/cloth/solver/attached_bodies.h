@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "cloth/core/vec3.h"
 #include "cloth/kernels/components.h"
-#include "cloth/vec3.h"
 
 namespace weft {
 

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "cloth/kernels/link_kernels.h"
-#include "cloth/plate.h"
-#include "cloth/seam.h"
+#include "cloth/sheet/plate.h"
+#include "cloth/sheet/seam.h"
 
 namespace weft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/interrupt.h"
+#include "cloth/core/interrupt.h"
 #include "cloth/kernels/implicit_kernels.h"
 
 namespace weft {

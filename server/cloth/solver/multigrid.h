@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
-#include "cloth/bands.h"
-#include "cloth/plate.h"
-#include "cloth/seam.h"
+#include "cloth/kernels/bands.h"
+#include "cloth/sheet/plate.h"
+#include "cloth/sheet/seam.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
 #include "cloth/solver/node_arrays.h"

@@ -1,6 +1,6 @@
 #include "cloth/solver/node_couplings.h"
 
-#include "cloth/solver/node_vector.h"
+#include "cloth/kernels/node_vector.h"
 
 namespace weft {
 

@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
+#include "cloth/core/vec3.h"
 #include "cloth/kernels/components.h"
-#include "cloth/vec3.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 /// What every engine in the comparison offers: a frame, and a look at the sheet.
 #include <vector>
 
-#include "cloth/vec3.h"
+#include "cloth/core/vec3.h"
 
 namespace weft::bench {
 

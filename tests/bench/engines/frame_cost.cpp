@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "engines/engine_scene.h"
 #include "timing.h"
 

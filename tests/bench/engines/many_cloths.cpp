@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "scene/scene.h"
 #include "timing.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "cloth/description.h"
+#include "cloth/core/description.h"
 
 namespace weft::bench {
 

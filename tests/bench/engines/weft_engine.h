@@ -1,5 +1,5 @@
 #pragma once
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "engines/engine.h"
 
 namespace weft::bench {

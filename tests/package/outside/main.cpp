@@ -1,5 +1,5 @@
 // A project outside Weft: simulates a falling cloth with the installed libraries and encodes one frame of it.
-#include <cloth/simulation.h>
+#include <cloth/world/simulation.h>
 #include <protocol/frame.h>
 
 #include <cmath>

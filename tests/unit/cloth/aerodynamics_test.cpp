@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "cloth/effects/aerodynamics.h"
-#include "cloth/effects/paper_wind.h"
+#include "cloth/air/aerodynamics.h"
+#include "cloth/air/paper_wind.h"
 #include "effect_sheet.h"
 
 namespace weft {

@@ -2,7 +2,7 @@
 /// Balls and obstacles among themselves, without a cloth, for the tests of how they meet.
 #include <vector>
 
-#include "cloth/colliders.h"
+#include "cloth/world/colliders.h"
 
 namespace weft::test {
 

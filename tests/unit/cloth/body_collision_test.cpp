@@ -1,5 +1,5 @@
 // Where bodies meet, and that they do so in a simulation: order, manifolds, cloth between, reset, commands.
-#include "cloth/contact/body_collision.h"
+#include "cloth/bodies/body_collision.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "bodies.h"
 #include "busy_scene.h"
-#include "cloth/contact/contact_manifold.h"
-#include "cloth/state_hash.h"
+#include "cloth/bodies/contact_manifold.h"
+#include "cloth/world/state_hash.h"
 #include "meshes.h"
 
 namespace weft {

@@ -1,12 +1,12 @@
 // A hand on a body: where it holds it, how fast it gets there, its most force, and the bits.
-#include "cloth/body_hand.h"
+#include "cloth/bodies/body_hand.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "busy_scene.h"
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 
 namespace weft {
 namespace {

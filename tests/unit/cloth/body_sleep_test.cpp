@@ -7,7 +7,7 @@
 
 #include "bodies.h"
 #include "busy_scene.h"
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 #include "faults.h"
 
 namespace weft {

@@ -1,6 +1,6 @@
 #pragma once
 /// Scenes for the tests of Simulation: a hung cloth, and one with something of everything.
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft::test {

@@ -1,7 +1,7 @@
 // Cloths that lie on each other: what each feels of the other, and that they come to rest.
 #include <gtest/gtest.h>
 
-#include "cloth/layers/pair_forces.h"
+#include "cloth/contact/constraints/pair_forces.h"
 #include "fixtures.h"
 #include "folding_scenes.h"
 #include "held.h"

@@ -1,12 +1,12 @@
 // One cloth: where it starts, what holds it, how it changes level; a hung sheet's stretch (T9), a falling
 // one's speed (T16).
-#include "cloth/cloth.h"
+#include "cloth/world/cloth.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 
 namespace weft {

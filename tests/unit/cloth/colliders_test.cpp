@@ -1,5 +1,5 @@
 // How balls move: told, along a path, thrown.
-#include "cloth/colliders.h"
+#include "cloth/world/colliders.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "cloth/layers/collision_net.h"
+#include "cloth/contact/recovery/collision_net.h"
 
 namespace weft::test {
 namespace {

@@ -2,9 +2,9 @@
 // looked at.
 #include <gtest/gtest.h>
 
-#include "cloth/colliders.h"
-#include "cloth/contact/contact.h"
-#include "cloth/diagnostics.h"
+#include "cloth/contact/recovery/contact.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/colliders.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -1,8 +1,8 @@
 // Continuous collision, obstacles, and nodes between two solids.
 #include <gtest/gtest.h>
 
-#include "cloth/contact/contact.h"
-#include "cloth/simulation.h"
+#include "cloth/contact/recovery/contact.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -1,5 +1,5 @@
 // Momenta, energies and the check for non-finite states, by hand.
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 
 #include <gtest/gtest.h>
 

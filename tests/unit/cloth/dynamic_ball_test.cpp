@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "busy_scene.h"
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -2,7 +2,7 @@
 /// A small sheet on its own, to look at one effect's forces on it.
 #include <cmath>
 
-#include "cloth/effects/effect.h"
+#include "cloth/forces/effect.h"
 #include "fixtures.h"
 
 namespace weft::test {

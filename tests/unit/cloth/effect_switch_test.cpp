@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "cloth/simulation.h"
-#include "cloth/state_hash.h"
+#include "cloth/world/simulation.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 
 namespace weft {

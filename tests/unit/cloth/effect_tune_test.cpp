@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "cloth/simulation.h"
-#include "cloth/state_hash.h"
+#include "cloth/world/simulation.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::test {
 

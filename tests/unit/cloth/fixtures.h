@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "cloth/description.h"
-#include "cloth/particles.h"
-#include "cloth/refine.h"
-#include "cloth/springs.h"
+#include "cloth/core/description.h"
+#include "cloth/core/particles.h"
+#include "cloth/levels/refine.h"
+#include "cloth/sheet/springs.h"
 
 namespace weft {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::test {
 

@@ -1,12 +1,12 @@
 // Gas shut in a sewn cloth: its volume, Boyle's law, its force, its energy and what explicit methods make of
 // it.
-#include "cloth/effects/gas.h"
+#include "cloth/air/gas.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -2,7 +2,7 @@
 /// The work of those who hold a cloth.
 #include <vector>
 
-#include "cloth/cloth.h"
+#include "cloth/world/cloth.h"
 
 namespace weft::test {
 

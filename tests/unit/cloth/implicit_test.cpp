@@ -7,8 +7,8 @@
 #include <complex>
 #include <numbers>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "rig.h"
 
 namespace weft {

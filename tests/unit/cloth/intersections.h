@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "cloth/particles.h"
+#include "cloth/core/particles.h"
 
 namespace weft::test {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cloth/cloth.h"
+#include "cloth/world/cloth.h"
 #include "fixtures.h"
 
 namespace weft {

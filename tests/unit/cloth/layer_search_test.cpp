@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "cloth/layers/feature_search.h"
+#include "cloth/contact/search/feature_search.h"
 
 namespace weft::test {
 namespace {

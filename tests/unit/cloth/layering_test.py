@@ -1,4 +1,4 @@
-"""Holds the order of the house: cli > net > host > study > scene > cloth, and net, host > protocol.
+"""Holds the order of the folders: cli > net > host > study > scene > cloth, and net, host > protocol; and of those in cloth.
 
 Reads the #include lines of server/ and protocol/. A part may use itself and what lies below it; cloth and protocol
 know nothing of each other or of anything above, and cloth knows no file, no socket, no JSON.
@@ -28,6 +28,23 @@ FORBIDDEN_LIBRARIES = {
     "protocol": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "Eigen/", "sys/", "netinet/"),
     "scene": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "sys/", "netinet/"),
     "study": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "fstream", "filesystem", "sys/", "netinet/"),
+}
+
+# The folders of server/cloth, the lowest first: each uses itself and those before it.
+ROOMS = ("core", "kernels", "shapes", "sleep", "sheet", "solver", "air", "bodies", "contact", "forces", "integrators", "levels",
+         "guard", "world")
+# Includes that run up, by file and header. None may be added; one that is gone is to be struck off.
+UPWARDS = {
+    ("air/aerodynamics.h", "forces/effect.h"),
+    ("air/inflation.h", "forces/effect.h"),
+    ("air/paper_wind.h", "forces/effect.h"),
+    ("contact/layers.h", "world/cloth.h"),
+    ("core/description.h", "air/wind.h"),
+    ("core/description.h", "levels/level_policy.h"),
+    ("core/description.h", "levels/relevance.h"),
+    ("core/description.h", "sheet/material.h"),
+    ("sheet/diagnostics.h", "levels/relevance.h"),
+    ("sleep/sleep.h", "air/air.h"),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -78,7 +95,26 @@ def violations(root):
     return found
 
 
+def upward_includes(cloth):
+    """The includes of server/cloth that name a header of a higher folder, as (file, header)."""
+    found = set()
+    for file in sorted(cloth.rglob("*")):
+        if file.suffix not in (".h", ".cpp"):
+            continue
+        name = str(file.relative_to(cloth))
+        for line in file.read_text(encoding="utf-8").splitlines():
+            match = INCLUDE.match(line)
+            if match and match[2].startswith("cloth/"):
+                header = match[2].removeprefix("cloth/")
+                if ROOMS.index(header.split("/")[0]) > ROOMS.index(name.split("/")[0]):
+                    found.add((name, header))
+    return found
+
+
 class LayeringTest(unittest.TestCase):
+    def test_the_folders_of_cloth_keep_their_order(self):
+        self.assertEqual(upward_includes(ROOT / "server" / "cloth"), UPWARDS)
+
     def test_the_house_keeps_its_order(self):
         self.assertEqual(violations(ROOT), [])
 
@@ -89,6 +125,14 @@ class LayeringTest(unittest.TestCase):
 
 class SelfTest(unittest.TestCase):
     """The check itself, on made-up houses."""
+
+    def test_an_include_upwards_in_cloth_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            cloth = pathlib.Path(folder)
+            for name, text in {"core/grid.h": '#include "cloth/sheet/plate.h"\n', "sheet/plate.h": '#include "cloth/core/grid.h"\n'}.items():
+                (cloth / name).parent.mkdir()
+                (cloth / name).write_text(text, encoding="utf-8")
+            self.assertEqual(upward_includes(cloth), {("core/grid.h", "sheet/plate.h")})
 
     def check(self, files):
         with tempfile.TemporaryDirectory() as folder:
@@ -105,8 +149,8 @@ class SelfTest(unittest.TestCase):
                 "server/cli/main.cpp": '#include "net/server.h"\n#include "protocol/frame.h"\n',
                 "server/net/server.h": '#include "host/host.h"\n#include <boost/beast.hpp>\n',
                 "server/host/host.h": '#include "scene/scene.h"\n#include "protocol/frame.h"\n',
-                "server/scene/scene.h": '#include "cloth/cloth.h"\n#include <nlohmann/json.hpp>\n',
-                "server/cloth/cloth.h": '#include "cloth/effects/effect.h"\n#include <vector>\n',
+                "server/scene/scene.h": '#include "cloth/world/cloth.h"\n#include <nlohmann/json.hpp>\n',
+                "server/cloth/world/cloth.h": '#include "cloth/forces/effect.h"\n#include <vector>\n',
                 "protocol/frame.h": '#include "protocol/grid_codec.h"\n',
             }), [])
 

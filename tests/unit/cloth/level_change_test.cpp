@@ -1,8 +1,8 @@
 // A change of level leaves the same state whatever steps the cloth, and takes nothing that it had.
 #include <cmath>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

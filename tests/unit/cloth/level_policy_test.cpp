@@ -1,5 +1,5 @@
 // Eq. 7: the level a distance deserves.
-#include "cloth/level_policy.h"
+#include "cloth/levels/level_policy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What bodies weigh about their centres.
-#include "cloth/contact/mass_properties.h"
+#include "cloth/shapes/mass_properties.h"
 
 #include <gtest/gtest.h>
 

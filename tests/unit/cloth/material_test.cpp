@@ -1,5 +1,5 @@
 // The named fabrics.
-#include "cloth/material.h"
+#include "cloth/sheet/material.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "cloth/contact/contact.h"
-#include "cloth/contact/triangle_mesh.h"
-#include "cloth/simulation.h"
-#include "cloth/state_hash.h"
+#include "cloth/contact/recovery/contact.h"
+#include "cloth/shapes/triangle_mesh.h"
+#include "cloth/world/simulation.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "meshes.h"
 #include "swept_sheet.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::test {
 

@@ -1,11 +1,11 @@
 // Energy taken from a cloth's motion: by how much it slows down, and what stays.
-#include "cloth/motion.h"
+#include "cloth/sheet/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "cloth/contact/contact.h"
-#include "cloth/path.h"
-#include "cloth/simulation.h"
+#include "cloth/contact/recovery/contact.h"
+#include "cloth/core/path.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 #include "swept_sheet.h"
 

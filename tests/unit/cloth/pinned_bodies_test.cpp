@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bodies.h"
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "meshes.h"
 
 namespace weft {

@@ -2,8 +2,8 @@
 // integrator; the cloth follows.
 #include <gtest/gtest.h>
 
-#include "cloth/pins.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/pins.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -1,14 +1,14 @@
 // Cloths far from the origin, whose positions are kept relative to a place of their own: what comes to them
 // from the world reaches them there as it would at the origin.
-#include "cloth/place.h"
+#include "cloth/core/place.h"
 
 #include <functional>
 
 #include "bodies.h"
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
-#include "cloth/state_hash.h"
-#include "cloth/wind/node_air.h"
+#include "cloth/air/node_air.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
+#include "cloth/world/state_hash.h"
 #include "faults.h"
 #include "fixtures.h"
 

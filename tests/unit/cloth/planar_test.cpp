@@ -2,7 +2,7 @@
 // and what does not fold stays in it.
 #include <gtest/gtest.h>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

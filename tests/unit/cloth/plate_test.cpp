@@ -1,5 +1,5 @@
 // The plate: its energy, force and bounds, and XPBD's sweep over it.
-#include "cloth/plate.h"
+#include "cloth/sheet/plate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Eq. 8 (split), its inverse (merge), Eq. 9 (mass), and what they do to momentum and energy.
-#include "cloth/refine.h"
+#include "cloth/levels/refine.h"
 
 #include <gtest/gtest.h>
 
-#include "cloth/diagnostics.h"
-#include "cloth/springs.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/springs.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -1,5 +1,5 @@
 // Whether a sphere is in sight, against figures worked out by hand and against points of the cone itself.
-#include "cloth/relevance.h"
+#include "cloth/levels/relevance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 
 namespace weft {

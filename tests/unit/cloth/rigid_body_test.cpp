@@ -1,5 +1,5 @@
 // Obstacles that are bodies: hits, momentum and energy, flying, commands, faults.
-#include "cloth/rigid_body.h"
+#include "cloth/bodies/rigid_body.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "busy_scene.h"
-#include "cloth/contact/mass_properties.h"
-#include "cloth/diagnostics.h"
-#include "cloth/state_hash.h"
+#include "cloth/shapes/mass_properties.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/state_hash.h"
 #include "meshes.h"
 
 namespace weft {

@@ -1,12 +1,12 @@
 // Sewn cloths: which nodes are one, and that they stay so.
-#include "cloth/seam.h"
+#include "cloth/sheet/seam.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -1,12 +1,12 @@
 // What a level change puts into the springs comes out again, without motion.
-#include "cloth/settle.h"
+#include "cloth/levels/settle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "cloth/contact/shape.h"
+#include "cloth/shapes/shape.h"
 
 namespace weft {
 namespace {

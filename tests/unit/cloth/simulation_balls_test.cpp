@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "busy_scene.h"
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft {
 namespace {

@@ -1,11 +1,11 @@
 // A scene in motion: the step, its clock, commands, reset, determinism, non-finite states. With balls:
 // simulation_balls_test.cpp.
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 
 #include <gtest/gtest.h>
 
 #include "busy_scene.h"
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft {
 namespace {

@@ -1,8 +1,8 @@
 // What a change of the positions does to the springs' energy, against what their linearisation promises.
 #include <gtest/gtest.h>
 
+#include "cloth/sheet/springs.h"
 #include "cloth/solver/node_arrays.h"
-#include "cloth/springs.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "cloth/refine.h"
-#include "cloth/springs.h"
+#include "cloth/levels/refine.h"
+#include "cloth/sheet/springs.h"
 #include "fixtures.h"
 
 namespace weft {

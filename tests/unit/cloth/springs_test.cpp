@@ -1,6 +1,6 @@
 // Eq. 1: one spring, the three kinds of springs of a sheet, and which of them exist. Frequencies:
 // spring_modes_test.cpp.
-#include "cloth/springs.h"
+#include "cloth/sheet/springs.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 
 #include "bodies.h"
 #include "busy_scene.h"
-#include "cloth/parallel.h"
-#include "cloth/state_hash.h"
+#include "cloth/core/parallel.h"
+#include "cloth/world/state_hash.h"
 #include "faults.h"
 #include "folding_scenes.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "busy_scene.h"
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "faults.h"
 
 namespace weft {

@@ -1,10 +1,10 @@
 // Long steps are made in parts (step_parts.h), each with the substeps described: how many are counted by
 // those.
-#include "cloth/step_parts.h"
+#include "cloth/world/step_parts.h"
 
 #include <gtest/gtest.h>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "folding_scenes.h"
 
 namespace weft::test {

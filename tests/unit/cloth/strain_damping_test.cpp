@@ -4,9 +4,9 @@
 #include <complex>
 #include <numbers>
 
-#include "cloth/cloth.h"
-#include "cloth/diagnostics.h"
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/cloth.h"
 #include "rig.h"
 
 namespace weft {

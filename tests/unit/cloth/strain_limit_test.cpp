@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "cloth/cloth.h"
-#include "cloth/diagnostics.h"
 #include "cloth/integrators/symplectic_euler.h"
+#include "cloth/sheet/diagnostics.h"
 #include "cloth/solver/node_arrays.h"
+#include "cloth/world/cloth.h"
 #include "rig.h"
 
 namespace weft {

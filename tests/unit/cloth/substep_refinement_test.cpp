@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "rig.h"
 
 namespace weft {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cloth/contact/contact.h"
+#include "cloth/contact/recovery/contact.h"
 #include "fixtures.h"
 
 namespace weft::test {

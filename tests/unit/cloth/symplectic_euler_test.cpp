@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "rig.h"
 
 namespace weft {

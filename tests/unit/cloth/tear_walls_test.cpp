@@ -1,10 +1,10 @@
 // Walls, what they cut at each level, and how nodes go on from level to level beside them.
 #include <gtest/gtest.h>
 
-#include "cloth/islands.h"
-#include "cloth/tear/mend.h"
-#include "cloth/tear/pieces.h"
-#include "cloth/tear/walls.h"
+#include "cloth/sheet/tear/mend.h"
+#include "cloth/sheet/tear/pieces.h"
+#include "cloth/sheet/tear/walls.h"
+#include "cloth/sleep/islands.h"
 #include "fixtures.h"
 #include "tears.h"
 

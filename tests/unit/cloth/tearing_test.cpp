@@ -4,9 +4,9 @@
 #include <string>
 
 #include "busy_scene.h"
-#include "cloth/diagnostics.h"
-#include "cloth/state_hash.h"
-#include "cloth/tear/tearing.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/tear/tearing.h"
+#include "cloth/world/state_hash.h"
 
 namespace weft {
 namespace {

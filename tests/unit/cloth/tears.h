@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "cloth/tear/torn_links.h"
+#include "cloth/sheet/tear/torn_links.h"
 
 namespace weft::test {
 

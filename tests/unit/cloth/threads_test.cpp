@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "bodies.h"
-#include "cloth/parallel.h"
-#include "cloth/simulation.h"
-#include "cloth/state_hash.h"
+#include "cloth/core/parallel.h"
+#include "cloth/world/simulation.h"
+#include "cloth/world/state_hash.h"
 
 namespace weft {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cloth/layers/feature_search.h"
+#include "cloth/contact/search/feature_search.h"
 #include "folding_scenes.h"
 #include "intersections.h"
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/sheet/tear/tearing.h"
+#include "cloth/sheet/tear/walls.h"
 #include "cloth/solver/multigrid.h"
-#include "cloth/tear/tearing.h"
-#include "cloth/tear/walls.h"
 #include "fixtures.h"
 #include "tears.h"
 

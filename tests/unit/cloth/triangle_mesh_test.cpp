@@ -10,8 +10,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "cloth/contact/shape.h"
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/shape.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "meshes.h"
 
 namespace weft {

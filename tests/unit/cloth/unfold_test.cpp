@@ -1,9 +1,9 @@
 // Starts that no sheet can have are unfolded before the first step, others are left alone.
-#include "cloth/unfold.h"
+#include "cloth/levels/unfold.h"
 
 #include <gtest/gtest.h>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 
 namespace weft {

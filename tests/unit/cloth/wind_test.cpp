@@ -9,7 +9,7 @@
 #include <random>
 
 #include "busy_scene.h"
-#include "cloth/wind/node_air.h"
+#include "cloth/air/node_air.h"
 
 namespace weft {
 namespace {

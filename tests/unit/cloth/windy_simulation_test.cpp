@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "busy_scene.h"
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 
 namespace weft {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "cloth/diagnostics.h"
-#include "cloth/simulation.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/world/simulation.h"
 #include "rig.h"
 
 namespace weft {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cloth/diagnostics.h"
+#include "cloth/sheet/diagnostics.h"
 #include "rig.h"
 
 namespace weft {

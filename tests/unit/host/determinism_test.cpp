@@ -1,5 +1,5 @@
 // A scene's bits depend on its description and on what was commanded at which step, not on who watches.
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "cloth/simulation.h"
+#include "cloth/world/simulation.h"
 #include "fixtures.h"
 #include "host/connection.h"
 

@@ -1,7 +1,7 @@
 /// Who sees which level, what is simulated, and what is encoded.
 #include <cmath>
 
-#include "cloth/refine.h"
+#include "cloth/levels/refine.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 

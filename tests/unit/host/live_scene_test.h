@@ -2,7 +2,7 @@
 /// A live scene on the test's thread, with two viewers in it.
 #include <functional>
 
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 

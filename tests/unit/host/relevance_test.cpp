@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 

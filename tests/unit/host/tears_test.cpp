@@ -1,5 +1,5 @@
 // Frames of a torn cloth.
-#include "cloth/tear/walls.h"
+#include "cloth/sheet/tear/walls.h"
 #include "fixtures.h"
 #include "host/frame_encoder.h"
 #include "host/live_scene.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "fixtures.h"
 
 namespace weft::scene::test {

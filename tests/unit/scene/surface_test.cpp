@@ -3,7 +3,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "cloth/contact/triangle_mesh.h"
+#include "cloth/shapes/triangle_mesh.h"
 #include "fixtures.h"
 
 namespace weft::scene::test {

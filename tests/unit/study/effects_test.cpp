@@ -1,6 +1,6 @@
 #include "study/effects.h"
 
-#include "cloth/state_hash.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "study/trajectory.h"
 

@@ -1,0 +1,130 @@
+#include "cloth/bodies/body_impulses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Sweeps at most, and the change of speed, m/s, below which there are no more.
+constexpr int kSweeps = 300;
+constexpr double kConverged = 1e-9;
+/// Of an overlap that a step leaves: all at once would make bodies in a pile throw each other about.
+constexpr double kShare = 0.2;
+
+/// The inverse of the mass, 1/kg, that a force along `direction` finds (Solid::inverse_mass_at).
+double inverse_mass_at(const MovingBody& body, const Vec3& arm, const Vec3& direction) {
+  const Vec3 lever = arm.cross(direction);
+  return body.inverse_mass + lever.dot(body.inverse_inertia * lever);
+}
+
+/// A contact while it is resolved.
+struct Row {
+  const BodyContact* contact;
+  MovingBody *a, *b;
+  double inverse_mass;      ///< along the normal, 1/kg
+  double impulse = 0;       ///< along the normal, N s
+  Vec3 friction{0, 0, 0};   ///< along the surface, N s
+  double displacement = 0;  ///< along the normal, kg m
+
+  double inverse_mass_along(const Vec3& direction) const {
+    return inverse_mass_at(*a, contact->arm_a, direction) + inverse_mass_at(*b, contact->arm_b, direction);
+  }
+  /// Of a as seen from b, m/s.
+  Vec3 velocity() const {
+    return a->velocity + a->spin.cross(contact->arm_a) - b->velocity - b->spin.cross(contact->arm_b);
+  }
+  void push(const Vec3& impulse_on_a) const {
+    a->velocity += a->inverse_mass * impulse_on_a;
+    a->spin += a->inverse_inertia * contact->arm_a.cross(impulse_on_a);
+    b->velocity -= b->inverse_mass * impulse_on_a;
+    b->spin -= b->inverse_inertia * contact->arm_b.cross(impulse_on_a);
+  }
+  /// The same without motion.
+  double shift_along_normal() const {
+    const Vec3 shift = a->shift + a->turn.cross(contact->arm_a) - b->shift - b->turn.cross(contact->arm_b);
+    return contact->normal.dot(shift);
+  }
+  void shift(const Vec3& by) const {
+    a->shift += a->inverse_mass * by;
+    a->turn += a->inverse_inertia * contact->arm_a.cross(by);
+    b->shift -= b->inverse_mass * by;
+    b->turn -= b->inverse_inertia * contact->arm_b.cross(by);
+  }
+};
+
+/// Returns the change of speed, m/s.
+double stop_approach(Row& row, double dt) {
+  const Vec3& normal = row.contact->normal;
+  const double allowed = std::max(row.contact->gap, 0.0) / dt;
+  const double wanted = -(normal.dot(row.velocity()) + allowed) / row.inverse_mass;
+  const double impulse = std::max(0.0, row.impulse + wanted), change = impulse - row.impulse;
+  row.impulse = impulse;
+  row.push(change * normal);
+  return std::abs(change) * row.inverse_mass;
+}
+
+/// Within Coulomb's cone, towards no slip.
+double rub(Row& row) {
+  const BodyContact& contact = *row.contact;
+  const Vec3 velocity = row.velocity(), slip = velocity - velocity.dot(contact.normal) * contact.normal;
+  const double speed = slip.norm(), most = contact.friction * row.impulse;
+  if (speed == 0 && row.friction.squaredNorm() <= most * most) return 0;
+  const Vec3 direction = speed > 0 ? Vec3(slip / speed) : row.friction.normalized();
+  const double inverse_mass = row.inverse_mass_along(direction);
+  Vec3 friction = row.friction - speed / inverse_mass * direction;
+  if (const double force = friction.norm(); force > most) friction *= most / force;
+  const Vec3 change = friction - row.friction;
+  row.friction = friction;
+  row.push(change);
+  return change.norm() * inverse_mass;
+}
+
+/// Apart by a share of the overlap that the step's ways leave, and no nearer than a gap that they leave: what
+/// pushes from the other side must not bring in what is outside. Returns the change, m.
+double part(Row& row, double dt) {
+  const double gap = row.contact->gap, opens = row.contact->normal.dot(row.velocity()) * dt;
+  const double wanted =
+      gap >= 0 ? std::min(0.0, -gap - opens) : -kShare * std::min(0.0, gap + std::max(0.0, opens));
+  const double change_wanted = (wanted - row.shift_along_normal()) / row.inverse_mass;
+  const double displacement = std::max(0.0, row.displacement + change_wanted);
+  const double change = displacement - row.displacement;
+  row.displacement = displacement;
+  row.shift(change * row.contact->normal);
+  return std::abs(change) * row.inverse_mass;
+}
+
+/// `change_by`(row) over all rows until it changes by `converged` at most; where that is not to be had, over
+/// those from `firm` on then, which nothing gives way to.
+template <class Change>
+void sweep(std::vector<Row>& rows, std::vector<Row>::iterator firm, double converged,
+           const Change& change_by) {
+  for (const auto first : {rows.begin(), firm}) {
+    for (int i = 0; i < kSweeps; ++i) {
+      double change = 0;
+      for (auto row = first; row != rows.end(); ++row) change = std::max(change, change_by(*row));
+      if (!(change > converged)) return;
+    }
+  }
+}
+
+}  // namespace
+
+void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies, double dt) {
+  std::vector<Row> rows;
+  rows.reserve(contacts.size());
+  for (const BodyContact& contact : contacts) {
+    Row row{&contact, &bodies[static_cast<std::size_t>(contact.a)],
+            &bodies[static_cast<std::size_t>(contact.b)], 0};
+    row.inverse_mass = row.inverse_mass_along(contact.normal);
+    if (row.inverse_mass > 0) rows.push_back(row);
+  }
+  const auto firm = std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.contact->firm; });
+  sweep(rows, firm, kConverged, [&](Row& row) {
+    const double rubbed = row.contact->friction > 0 ? rub(row) : 0;
+    return std::max(rubbed, stop_approach(row, dt));
+  });
+  sweep(rows, firm, kConverged * dt, [&](Row& row) { return part(row, dt); });
+}
+
+}  // namespace weft

@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+#include "cloth/shapes/shape.h"
+
+namespace weft {
+
+/// A corner of a shape in its own frame, or the centre of a round one.
+struct Corner {
+  Vec3 place{0, 0, 0};     ///< m
+  double radius = 0;       ///< of what is round about it, m
+  Vec3 outwards{0, 0, 0};  ///< unit, of a sharp one
+};
+
+/// The shape's corners, of which it is the convex hull unless it is a mesh that is not convex. A half-space
+/// has none.
+std::vector<Corner> corners_of(const Shape& shape);
+
+/// Neither a half-space nor a mesh that is not known to be convex.
+bool is_convex(const Shape& shape);
+
+/// Of two convex shapes that overlap or nearly do: they touch along a normal at these points.
+struct Manifold {
+  Vec3 normal{0, 1, 0};  ///< unit, from b to a
+  struct Point {
+    Vec3 place{0, 0, 0};  ///< m
+    double gap = 0;       ///< between the two there, along the normal, m; negative: overlap
+  };
+  std::vector<Point> points;
+};
+
+/// Where they touch, if they do so along about `normal`, from b to a, and at `deepest`: the face of one, if
+/// it has one there, cuts out what of the other's face or edge lies over it, which holds two boxes on each
+/// other by their corners; otherwise it is that point. Leaves out what is farther apart than `margin`, m.
+/// (Clipping of the incident face by the reference face's sides: D. Gregorius, Robust Contact Creation for
+/// Physics Simulations, GDC 2015.)
+Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& normal, const Vec3& deepest,
+                     double margin);
+
+}  // namespace weft

@@ -1,0 +1,189 @@
+/// ContactConstraints as springs of a step's linear system.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloth/contact/constraints/contact_constraints.h"
+#include "cloth/kernels/node_vector.h"
+
+namespace weft {
+namespace {
+
+/// Stiffness of a contact, as multiples of the links' and of the inertia's at the node. More would cost
+/// digits in single precision; the inertia's alone leaves a depth of at most g h^2 / 100 under a cloth's own
+/// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
+constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
+
+/// At most so many times the inertia of a torn piece is a contact's part of the links. A flake of a node or
+/// two has but its inertia along a surface, and the last digits of the stiffness across it: with all of it
+/// some that lay on a plane were taken tens of metres away in a step.
+constexpr double kPieceMultiple = 1e4;
+
+/// along n n^T + across (I - n n^T).
+Eigen::Matrix3d stiffness_of(const Vec3& n, double along, double across) {
+  const double both = along - across;
+  const double xy = both * n.x() * n.y(), xz = both * n.x() * n.z(), yz = both * n.y() * n.z();
+  return Eigen::Matrix3d{{across + both * n.x() * n.x(), xy, xz},
+                         {xy, across + both * n.y() * n.y(), yz},
+                         {xz, yz, across + both * n.z() * n.z()}};
+}
+
+template <class Real>
+void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Eigen::Matrix3d& block) {
+  blocks.xx[i] += static_cast<Real>(block(0, 0));
+  blocks.xy[i] += static_cast<Real>(block(0, 1));
+  blocks.xz[i] += static_cast<Real>(block(0, 2));
+  blocks.yy[i] += static_cast<Real>(block(1, 1));
+  blocks.yz[i] += static_cast<Real>(block(1, 2));
+  blocks.zz[i] += static_cast<Real>(block(2, 2));
+}
+
+}  // namespace
+
+template <class Real>
+Vec3 ContactConstraints<Real>::friction(const Constraint& c, const Vec3& moved) {
+  return c.grip + c.friction_stiffness * across(c.solid_move - moved, c.normal);
+}
+
+/// As seen from a solid whose way is not bent.
+template <class Real>
+Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<const Real> move,
+                                       const AttachedBodies<Real>& bodies) {
+  const Vec3 moved = at(move, c.touch.node);
+  return c.body ? Vec3(moved - bodies.move(*c.body, c.arm)) : moved;
+}
+
+template <class Real>
+void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
+                                      AttachedBodies<Real>& bodies, const Real* diagonal,
+                                      double links_stiffness, const std::vector<double>& piece_mass,
+                                      kernels::Components<const Real> move) {
+  bodies.detach();
+  const double inertia_rate = kPieceMultiple / (substep_.seconds * substep_.seconds);
+  for (Constraint& c : constraints_) {
+    if (c.released) continue;
+    const std::size_t i = c.touch.node;
+    const double links =
+        piece_mass.empty() ? links_stiffness : std::min(links_stiffness, inertia_rate * piece_mass[i]);
+    c.stiffness = kLinkMultiple * links + kInertiaMultiple * double(diagonal[i]);
+    const Vec3 moved = move_of(c, move, bodies);
+    // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
+    const bool slides = c.holds < c.stiffness * c.sliding;
+    c.friction_stiffness = slides ? c.holds / c.sliding : c.holds > 0 ? c.stiffness : 0;
+    if (slides) c.grip.setZero();
+    const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
+    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + friction(c, moved);
+    add_block(blocks, i, stiffness);
+    add(b, i, force);
+    if (c.body) bodies.attach(*c.body, i, c.arm, stiffness, force);
+  }
+  bodies.eliminate(b);
+}
+
+template <class Real>
+void ContactConstraints<Real>::append_springs(kernels::Components<const Real> move,
+                                              kernels::Components<const Real> change,
+                                              const AttachedBodies<Real>& bodies,
+                                              std::vector<OneSidedSpring>& springs) const {
+  for (const Constraint& c : constraints_) {
+    if (c.pinched) continue;
+    Vec3 way = at(change, c.touch.node);
+    if (c.body) way -= bodies.change(*c.body, c.arm);
+    springs.push_back(
+        {c.distance - c.normal.dot(move_of(c, move, bodies)), -c.normal.dot(way), c.stiffness, !c.released});
+  }
+}
+
+template <class Real>
+double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move,
+                                                 const AttachedBodies<Real>& bodies) {
+  double energy = 0;
+  for (Constraint& c : constraints_) {
+    const double beyond = c.normal.dot(move_of(c, move, bodies)) - c.distance;
+    if (c.pinched || c.released == (beyond > 0)) continue;
+    c.released = !c.released;
+    energy += c.stiffness * beyond * beyond / 2;
+  }
+  return energy;
+}
+
+template <class Real>
+const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<const Real> move,
+                                                           const AttachedBodies<Real>& bodies,
+                                                           std::vector<Solid>& solids) {
+  pressed_.clear();
+  kept_aside_.clear();
+  for (Constraint& c : constraints_) {
+    const Vec3 moved = move_of(c, move, bodies);
+    const double depth = c.distance - c.normal.dot(moved);
+    c.grip = friction(c, moved);
+    c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
+    if (c.body && c.force > 0) pressed_.push_back(c.touch);
+    const bool turning = c.body && solid_of(c.touch, solids).yields_turning();
+    // A node that passes less than half through a solid is not pushed back to the face that it came from:
+    // around an edge that would stretch its links.
+    const bool near = !c.body && (moved - c.solid_move).squaredNorm() < c.width * c.width;
+    if (turning || near) kept_aside_.push_back(c.touch);
+  }
+  solids = bent(std::move(solids), bodies);
+  return pressed_;
+}
+
+template <class Real>
+std::vector<Solid> ContactConstraints<Real>::bent(std::vector<Solid> solids,
+                                                  const AttachedBodies<Real>& bodies) const {
+  for (std::size_t body = 0; body < yielding_.size(); ++body) {
+    Solid& solid = solids[yielding_[body]];
+    const int index = static_cast<int>(body);
+    solid.go_on(solid.velocity + bodies.move(index) / substep_.seconds,
+                solid.spin + bodies.turn(index) / substep_.seconds, substep_.from, substep_.step_seconds());
+  }
+  return solids;
+}
+
+template <class Real>
+void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
+  for (const Constraint& c : constraints_) {
+    if (!c.released) add(velocity, c.touch.node, -c.led_out / substep_.seconds * c.normal);
+  }
+}
+
+template Vec3 ContactConstraints<float>::friction(const Constraint&, const Vec3&);
+template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Components<const float>,
+                                                 const AttachedBodies<float>&);
+template void ContactConstraints<float>::add_to(kernels::Blocks<float>, kernels::Components<float>,
+                                                AttachedBodies<float>&, const float*, double,
+                                                const std::vector<double>&, kernels::Components<const float>);
+template void ContactConstraints<float>::append_springs(kernels::Components<const float>,
+                                                        kernels::Components<const float>,
+                                                        const AttachedBodies<float>&,
+                                                        std::vector<OneSidedSpring>&) const;
+template double ContactConstraints<float>::release_pulling(kernels::Components<const float>,
+                                                           const AttachedBodies<float>&);
+template const std::vector<Touch>& ContactConstraints<float>::finish(kernels::Components<const float>,
+                                                                     const AttachedBodies<float>&,
+                                                                     std::vector<Solid>&);
+template std::vector<Solid> ContactConstraints<float>::bent(std::vector<Solid>,
+                                                            const AttachedBodies<float>&) const;
+template void ContactConstraints<float>::keep_velocities(kernels::Components<float>) const;
+template Vec3 ContactConstraints<double>::friction(const Constraint&, const Vec3&);
+template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Components<const double>,
+                                                  const AttachedBodies<double>&);
+template void ContactConstraints<double>::add_to(kernels::Blocks<double>, kernels::Components<double>,
+                                                 AttachedBodies<double>&, const double*, double,
+                                                 const std::vector<double>&,
+                                                 kernels::Components<const double>);
+template void ContactConstraints<double>::append_springs(kernels::Components<const double>,
+                                                         kernels::Components<const double>,
+                                                         const AttachedBodies<double>&,
+                                                         std::vector<OneSidedSpring>&) const;
+template double ContactConstraints<double>::release_pulling(kernels::Components<const double>,
+                                                            const AttachedBodies<double>&);
+template const std::vector<Touch>& ContactConstraints<double>::finish(kernels::Components<const double>,
+                                                                      const AttachedBodies<double>&,
+                                                                      std::vector<Solid>&);
+template std::vector<Solid> ContactConstraints<double>::bent(std::vector<Solid>,
+                                                             const AttachedBodies<double>&) const;
+template void ContactConstraints<double>::keep_velocities(kernels::Components<double>) const;
+
+}  // namespace weft

@@ -1,0 +1,89 @@
+#pragma once
+#include <memory>
+
+#include "cloth/contact/constraints/layer_contacts.h"
+#include "cloth/contact/recovery/collision_net.h"
+#include "cloth/world/cloth.h"
+
+namespace weft {
+
+/// Contact of a scene's cloths with themselves and with one another (ClothContactEffect), around their steps.
+///
+/// Before them the pairs are found that lie or will lie nearer than the thickness, of a node on a triangle,
+/// to an implicit step, the nearest on each side alone; each cloth takes them into its own step
+/// (LayerContacts), so that cloths are still stepped side by side. After them all the net (CollisionNet)
+/// stops what they missed, over all cloths together and in one order, whatever the threads.
+///
+/// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
+/// sheet would push each other.
+///
+/// Cloth may begin entangled, and split, merge, settling and solids that leave it no other way may make it
+/// so; nothing else does. Nodes of triangles that an edge passes through are left alone, by contact and net,
+/// and led out of each other (untangling_moves) until none does. Torn cells are not there (FeatureSearch).
+template <class Real>
+class Layers {
+ public:
+  explicit Layers(const ClothContactEffect& parameters) : parameters_(parameters) {}
+
+  /// Before the cloths' step of dt seconds.
+  void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
+  /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth; but none
+  /// into a solid or through one.
+  void end_step(std::vector<Cloth<Real>>& cloths, double dt);
+
+  /// The state of `other`, of the same effect, whose cloths these are copies of; nullptr: there is none, it
+  /// begins anew.
+  void take_state(const Layers* other, std::vector<Cloth<Real>>& cloths);
+
+  /// Nodes that are left alone, as the last step began.
+  int tangled_nodes() const { return tangled_; }
+  /// Fastest that a cloth goes past or towards another one that it is near, as the last step began, in the
+  /// narrower of their cells a second.
+  double cells_passed() const { return cells_passed_; }
+  /// In the last step more of the cloth lay in one place than is kept apart (FeatureSearch).
+  bool crowded(std::size_t cloth) const { return crowded_[cloth] != 0; }
+
+ private:
+  void lay_out(std::vector<Cloth<Real>>& cloths);
+  /// Takes over what was torn since the last step.
+  void take_over_tears(const std::vector<Cloth<Real>>& cloths);
+  void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
+  void read_masses(const std::vector<Cloth<Real>>& cloths);
+  /// To the net, what goes on lying on solids is harder to move: it cannot give way into them.
+  void weigh_down(const std::vector<Cloth<Real>>& cloths);
+  void untangle(std::vector<Cloth<Real>>& cloths);
+  /// What the net has moved, in the cloths. True if solids were in its way: then those nodes are where they
+  /// let them, here as well, and harder to move.
+  bool move_on(std::vector<Cloth<Real>>& cloths, double dt);
+  void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  /// Tells the cloths in what company they are; islands are of those that pairs join.
+  void let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const;
+  /// Of a pair of two cloths, for cells_passed().
+  double pass(const LayerPair& pair) const;
+  /// A sleeping cloth that it joins is to wake.
+  bool rouses(const LayerPair& pair) const;
+  std::size_t sheet_of(std::uint32_t node) const;
+
+  ClothContactEffect parameters_;
+  std::vector<Grid> grids_;
+  std::vector<double> gaps_;                            ///< of each cloth, m
+  std::vector<double> cells_;                           ///< of each cloth, the shorter side, m
+  std::vector<std::shared_ptr<const TornLinks>> torn_;  ///< of each cloth; nullptr while it is whole
+  LayerNodes nodes_;
+  FeatureSearch search_;
+  CollisionNet net_{0};
+  std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
+  std::vector<char> pressed_;   ///< by node, by another cloth, in the step before the last
+  std::vector<char> on_solid_;  ///< by node, as the last step ended
+  std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest
+  std::vector<char> crowded_;   ///< by cloth, in the last step
+  bool found_ = false;          ///< pairs, at these levels
+  double cells_passed_ = 0;
+  bool may_be_tangled_ = true;
+  int tangled_ = 0;
+};
+
+extern template class Layers<float>;
+extern template class Layers<double>;
+
+}  // namespace weft

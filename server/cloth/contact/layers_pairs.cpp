@@ -1,0 +1,172 @@
+/// Layers' pairs: which features each cloth's step is given.
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "cloth/contact/layers.h"
+
+namespace weft {
+namespace {
+
+/// Nearer features may have passed through each other by rounding, m.
+constexpr double kTouching = 1e-6;
+
+/// A cloth that moves faster wakes a sleeping one that it touches, m/s.
+constexpr double kRousing = 0.01;
+
+/// Explicit substeps hold all pairs within this times their gap: beyond a triangle's rim the distance of a
+/// node is its height (contact_normal), which may be smaller by this factor. If only the nearest pairs by
+/// velocity were held, as in implicit steps, those that pressed in the step before would be missed.
+constexpr double kAslant = std::numbers::sqrt2;
+
+/// Most pairs of edges that are held of those that begin at one node: bounds memory.
+constexpr std::uint16_t kMostEdges = 128;
+
+/// The features as they will lie, or, if they would pass through each other, as they meet: what slides past
+/// something on its way does not touch it. And how far apart they end, m.
+std::pair<LayerPair, double> foreseen(const FeaturePair& features, const LayerNodes& nodes, double net_gap) {
+  std::pair<LayerPair, double> result;
+  auto& [pair, distance] = result;
+  pair.features = features;
+  const FourPoints ends = points_of(features, nodes.end);
+  FourPoints points = points_of(features, nodes.start);
+  const FourPoints way{ends[0] - points[0], ends[1] - points[1], ends[2] - points[2], ends[3] - points[3]};
+  const auto meet = first_contact(features.kind, features.distance, points, way, net_gap);
+  for (std::size_t i = 0; i < 4; ++i) points[i] += meet.value_or(1) * way[i];
+  pair.near = nearness(features.kind, points);
+  pair.normal = contact_normal(features.kind, points, pair.near);
+  for (std::size_t i = 0; i < 4; ++i) distance += pair.near.weight[i] * pair.normal.dot(ends[i]);
+  return result;
+}
+
+/// Of each node and side of its sheet the pair that ends nearest.
+class NearestPairs {
+ public:
+  explicit NearestPairs(std::size_t nodes) : slots_(2 * nodes, -1) {}
+
+  void add(const LayerPair& pair, double distance) {
+    int& slot = slots_[2 * std::size_t{pair.features.node[0]} + static_cast<std::size_t>(pair.side)];
+    if (slot < 0) {
+      slot = static_cast<int>(found_.size());
+      found_.emplace_back(pair, distance);
+    } else if (distance < found_[static_cast<std::size_t>(slot)].second) {
+      found_[static_cast<std::size_t>(slot)] = {pair, distance};
+    }
+  }
+  const std::vector<std::pair<LayerPair, double>>& found() const { return found_; }
+
+ private:
+  std::vector<int> slots_;  ///< by node and side; -1: none
+  std::vector<std::pair<LayerPair, double>> found_;
+};
+
+}  // namespace
+
+template <class Real>
+std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
+  return static_cast<std::size_t>(std::upper_bound(nodes_.first.begin(), nodes_.first.end(), node) -
+                                  nodes_.first.begin()) -
+         1;
+}
+
+template <class Real>
+bool Layers<Real>::rouses(const LayerPair& pair) const {
+  return std::any_of(pair.features.node.begin(), pair.features.node.end(),
+                     [&](std::uint32_t n) { return nodes_.velocity[n].norm() > kRousing; });
+}
+
+template <class Real>
+double Layers<Real>::pass(const LayerPair& pair) const {
+  Vec3 relative(0, 0, 0);
+  for (std::size_t i = 0; i < 4; ++i)
+    relative += pair.near.weight[i] * nodes_.velocity[pair.features.node[i]];
+  const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
+  return relative.norm() / std::min(cells_[one], cells_[other]);
+}
+
+template <class Real>
+void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
+  const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
+  std::vector<std::vector<LayerPair>> shares(cloths.size());
+  Islands islands(cloths.size());
+  // With those of its cloths that step so.
+  const auto share = [&](const LayerPair& pair, bool with_implicit) {
+    const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
+    if (implicitly(one) == with_implicit) shares[one].push_back(pair);
+    if (other == one) return;
+    cells_passed_ = std::max(cells_passed_, pass(pair));
+    islands.join(one, other);
+    if (implicitly(other) == with_implicit) shares[other].push_back(pair);
+    if (with_implicit != implicitly(one) && with_implicit != implicitly(other)) return;
+    for (const std::size_t sheet : {one, other}) {
+      if (cloths[sheet].asleep() && rouses(pair)) cloths[sheet].wake();
+    }
+  };
+  cells_passed_ = 0;
+  bool all_implicit = true;
+  for (std::size_t i = 0; i < cloths.size(); ++i) all_implicit = all_implicit && implicitly(i);
+  const double widest = (all_implicit ? 1 : kAslant) * *std::max_element(gaps_.begin(), gaps_.end());
+  const double drop = standard_gravity().norm() * dt * dt;
+  NearestPairs nearest(nodes_.start.size());
+  std::vector<LayerPair> edges;
+  std::vector<std::uint16_t> of_node(nodes_.start.size());
+  for (const FeaturePair& features : search_.find(nodes_, widest + drop)) {
+    const std::size_t one = sheet_of(features.node[0]), other = sheet_of(features.node[2]);
+    if (features.distance < kTouching) may_be_tangled_ = true;
+    auto [pair, distance] = foreseen(features, nodes_, net_.gap());
+    pair.gap = std::min(gaps_[one], gaps_[other]);
+    const bool node_on_triangle = features.kind == FeaturePair::Kind::node_triangle;
+    if (!node_on_triangle) pair.gap *= kEdgePart;
+    const bool explicitly = !implicitly(one) || !implicitly(other);
+    if ((explicitly ? std::min(distance, features.distance) : distance) - drop > pair.gap) continue;
+    if (node_on_triangle) {
+      if (explicitly) share(pair, false);
+      if (!implicitly(one) && !implicitly(other)) continue;
+      pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
+                                features.node[0] - nodes_.first[one], pair.normal, torn_[one].get());
+      nearest.add(pair, distance);
+    } else if (of_node[features.node[0]]++ < kMostEdges) {
+      edges.push_back(pair);
+    } else {
+      crowded_[one] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (search_.crowded(i)) crowded_[i] = 1;
+  }
+  for (const auto& [pair, distance] : nearest.found()) share(pair, true);
+  for (const LayerPair& pair : edges) {
+    share(pair, true);
+    share(pair, false);
+  }
+  for (std::size_t i = 0; i < cloths.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
+  let_sleep(cloths, islands);
+}
+
+template <class Real>
+void Layers<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const {
+  std::vector<std::size_t> size(cloths.size(), 0), quiet(cloths.size(), 0);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ++size[islands.of(i)];
+    if (cloths[i].quiet()) ++quiet[islands.of(i)];
+  }
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const std::size_t island = islands.of(i);
+    cloths[i].set_company(size[island] == 1               ? Sleep::Company::none
+                          : quiet[island] == size[island] ? Sleep::Company::quiet
+                                                          : Sleep::Company::restless);
+  }
+}
+
+template std::size_t Layers<float>::sheet_of(std::uint32_t) const;
+template bool Layers<float>::rouses(const LayerPair&) const;
+template double Layers<float>::pass(const LayerPair&) const;
+template void Layers<float>::share_pairs(std::vector<Cloth<float>>&, double);
+template void Layers<float>::let_sleep(std::vector<Cloth<float>>&, Islands&) const;
+template std::size_t Layers<double>::sheet_of(std::uint32_t) const;
+template bool Layers<double>::rouses(const LayerPair&) const;
+template double Layers<double>::pass(const LayerPair&) const;
+template void Layers<double>::share_pairs(std::vector<Cloth<double>>&, double);
+template void Layers<double>::let_sleep(std::vector<Cloth<double>>&, Islands&) const;
+
+}  // namespace weft

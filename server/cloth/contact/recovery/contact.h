@@ -1,0 +1,147 @@
+#pragma once
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+#include "cloth/contact/search/broad_phase.h"
+
+namespace weft {
+
+/// Counted since the cloth was made: shows that tiles far from all solids are never looked at.
+struct ContactCounters {
+  std::uint64_t tiles_examined = 0;  ///< tiles whose nodes were tested against a solid
+  std::uint64_t nodes_tested = 0;
+  std::uint64_t nodes_in_contact = 0;  ///< nodes found inside a solid, or on a way through, and brought out,
+                                       ///< or kept there
+
+  friend ContactCounters operator+(const ContactCounters& a, const ContactCounters& b) {
+    return {a.tiles_examined + b.tiles_examined, a.nodes_tested + b.nodes_tested,
+            a.nodes_in_contact + b.nodes_in_contact};
+  }
+};
+
+/// A part of a step: it begins and ends at these fractions of the step and takes so many seconds. One that
+/// begins where it ends is a moment, in which no solid moves, of a step of so many seconds.
+struct Substep {
+  double from = 0, to = 1;
+  double seconds = 1.0 / 60;
+
+  /// Of the whole step.
+  double step_seconds() const { return to > from ? seconds / (to - from) : seconds; }
+  static Substep of(int index, int count, double dt) {
+    return {static_cast<double>(index) / count, static_cast<double>(index + 1) / count, dt / count};
+  }
+};
+
+/// A node on a solid.
+struct Touch {
+  std::size_t node = 0;  ///< index into the grid's arrays
+  ColliderId collider = 0;
+
+  friend bool operator==(const Touch&, const Touch&) = default;
+  friend bool operator<(const Touch& a, const Touch& b) {
+    return std::tie(a.node, a.collider) < std::tie(b.node, b.collider);
+  }
+};
+
+/// A node on its way into a solid.
+struct Arrival {
+  Touch touch;
+  std::size_t solid = 0;  ///< index
+  Surface surface;        ///< the tangent plane where they meet, as it will be beside it if both go on
+  double approach = 0;    ///< of one to the other, along the normal, m/s
+};
+
+/// The paper's section 2.4, second half: in the struck tiles a particle inside a ball, or another solid, is
+/// pushed back to its surface and loses the part of its velocity, relative to the solid, that points into it.
+/// Coulomb's friction, which the paper has not, slows what is left of it by up to friction times the speed
+/// lost. A particle at a ball's very centre leaves upwards. Pinned nodes stay.
+///
+/// A solid that yields takes up, node by node, the momentum that they lose: each hit leaves the two with one
+/// velocity along the normal, as bodies of their masses that hit plastically, so that it keeps their momentum
+/// and never adds energy, whichever is the heavier.
+///
+/// Where nodes and a solid approach by more than a part of its width in a substep, their ways are compared
+/// instead of their last places (continuous collision): a node goes on from where it met the surface, with
+/// the solid, and slides.
+template <class Real>
+class Contact {
+ public:
+  explicit Contact(const Grid& grid) : broad_phase_(grid) {}
+
+  /// Resolves the contacts at a substep's end, from which on solids that yield have the velocity that their
+  /// momentum gives. `start` holds the nodes' places at its start, if the integrator has had friction bear on
+  /// their ways: it then leads none back farther than it let them slip. Without it they
+  /// came there with the velocities that they have. Returns the number of nodes in contact in this call.
+  /// `rounded_off`, if the integrator keeps it, is what the positions' rounding leaves out, m.
+  int resolve(Particles<Real>& particles, std::vector<Solid>& solids, const Substep& substep,
+              const VectorField<Real>* start = nullptr, VectorField<Real>* rounded_off = nullptr);
+
+  /// Before a substep: adds to touches() the free nodes that will be in a solid that does not yield at the
+  /// substep's end if they go on with the velocity and the acceleration they have.
+  const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                   const Substep& substep);
+  /// The free nodes that are now in a solid that does not yield, or in a body, as it is at the substep's end.
+  /// Valid until the next call.
+  const std::vector<Touch>& inside(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                   const Substep& substep);
+  /// Before a substep: the free nodes that will pass the surface of a solid that is `sought`, or that yields,
+  /// if all go on as they go. Valid until the next call.
+  const std::vector<Arrival>& foresee(
+      const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
+      bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
+
+  /// Before a step: the pinned nodes that a solid which yields may come to in it, going no farther than it
+  /// does now, if no pin goes farther than `longest`, m; by node. Solids are told by their indices.
+  std::vector<std::pair<std::size_t, std::size_t>> pinned_near(const Particles<Real>& particles,
+                                                               const std::vector<Solid>& solids,
+                                                               double longest);
+
+  /// Before resolve: these lay on a solid when the substep began, and neither the ways they had nor a
+  /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
+  /// its side: resolve does not stop them.
+  void let_slide_off(const std::vector<Touch>& not_held) { not_held_ = not_held; }
+  /// Before resolve: constraints have kept these on their side of a solid; ordered. Their ways are not looked
+  /// at again: where one cuts an edge they would be put back onto the face that they came from.
+  void trust(const std::vector<Touch>& kept_aside) { kept_aside_ = kept_aside; }
+  /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.
+  /// Returns how many resolve did not find.
+  int keep(const std::vector<Touch>& pressed);
+
+  /// What the last resolve found in contact, ordered by tile, then node, with what slid off, and then what
+  /// was kept; after expect() by node, then collider.
+  const std::vector<Touch>& touches() const { return touches_; }
+  const ContactCounters& counters() const { return counters_; }
+  /// What `other`, of the same grid, found in its steps and counted.
+  void take_state(const Contact& other) {
+    counters_ = other.counters_;
+    touches_ = other.touches_;
+    not_held_ = other.not_held_;
+    kept_aside_ = other.kept_aside_;
+  }
+  const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
+
+ private:
+  /// Calls visit(row, col) for every node in those rows of the tiles that struck(pair, block, first node)
+  /// finds for some solid: bit r for row r.
+  template <class Struck, class Visit>
+  void for_each_struck(const VectorField<Real>& position, const std::vector<TileSolidPair>& pairs,
+                       Struck struck, Visit visit);
+
+  /// Adds to `found` the free nodes that are, at these positions, in a solid that is `sought`, as that is at
+  /// the substep's end.
+  void find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
+                   const std::vector<Solid>& solids, const Substep& substep, bool (*sought)(const Solid&),
+                   std::vector<Touch>& found);
+
+  BroadPhase<Real> broad_phase_;
+  ContactCounters counters_;
+  std::vector<Touch> touches_, inside_, not_held_, kept_aside_;
+  std::vector<Arrival> arrivals_;
+  VectorField<Real> ahead_;  ///< where the nodes will be if they go on
+};
+
+extern template class Contact<float>;
+extern template class Contact<double>;
+
+}  // namespace weft

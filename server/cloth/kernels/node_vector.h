@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+
+#include "cloth/core/vec3.h"
+#include "cloth/kernels/components.h"
+
+namespace weft {
+
+/// The vector of one node in a field; sums over few nodes are made in double precision.
+template <class Real>
+Vec3 at(const kernels::Components<const Real>& field, std::size_t node) {
+  return {double(field.x[node]), double(field.y[node]), double(field.z[node])};
+}
+
+/// field[node] = value.
+template <class Real>
+void set(const kernels::Components<Real>& field, std::size_t node, const Vec3& value) {
+  field.x[node] = static_cast<Real>(value.x());
+  field.y[node] = static_cast<Real>(value.y());
+  field.z[node] = static_cast<Real>(value.z());
+}
+
+/// field[node] += value.
+template <class Real>
+void add(const kernels::Components<Real>& field, std::size_t node, const Vec3& value) {
+  field.x[node] += static_cast<Real>(value.x());
+  field.y[node] += static_cast<Real>(value.y());
+  field.z[node] += static_cast<Real>(value.z());
+}
+
+/// field[node] = 0 for the first `count` nodes.
+template <class Real>
+void clear(const kernels::Components<Real>& field, std::size_t count) {
+  for (Real* component : {field.x, field.y, field.z}) std::fill_n(component, count, Real(0));
+}
+
+}  // namespace weft

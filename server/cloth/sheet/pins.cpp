@@ -1,0 +1,85 @@
+#include "cloth/sheet/pins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth/kernels/node_vector.h"
+
+namespace weft {
+namespace {
+
+/// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays.
+std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
+  constexpr double kTolerance = 1e-9;
+  const auto inside = [](double x, double min, double max) {
+    return x >= min - kTolerance && x <= max + kTolerance;
+  };
+  std::vector<std::size_t> nodes;
+  for (int r = 0; r < grid.rows; ++r) {
+    if (!inside(static_cast<double>(r) / (grid.rows - 1), region.v_min, region.v_max)) continue;
+    for (int c = 0; c < grid.cols; ++c) {
+      if (inside(static_cast<double>(c) / (grid.cols - 1), region.u_min, region.u_max)) {
+        nodes.push_back(grid.index(r, c));
+      }
+    }
+  }
+  if (!nodes.empty()) return nodes;
+  const auto nearest = [](double low, double high, int count) {
+    return std::clamp(static_cast<int>(std::lround(0.5 * (low + high) * (count - 1))), 0, count - 1);
+  };
+  return {grid.index(nearest(region.v_min, region.v_max, grid.rows),
+                     nearest(region.u_min, region.u_max, grid.cols))};
+}
+
+/// Adds the other node of every pair of which one is there; `nodes` ascend.
+template <class Real>
+void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
+  std::vector<std::size_t> added;
+  for (const auto& [left, right] : seam.pairs()) {
+    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
+    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
+    if (has_left != has_right) added.push_back(has_left ? right : left);
+  }
+  nodes.insert(nodes.end(), added.begin(), added.end());
+}
+
+}  // namespace
+
+template <class Real>
+Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
+                 const Seam<Real>* seam) {
+  const Grid& grid = particles.grid();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
+  }
+  for (const PinRegion& region : regions) {
+    std::vector<std::size_t> nodes = nodes_in(region, grid);
+    if (seam != nullptr) add_sewn(*seam, nodes);
+    for (const std::size_t node : nodes) {
+      particles.inverse_mass.row(0)[node] = Real(0);
+      set(kernels::components(particles.velocity), node, Vec3::Zero());
+    }
+    if (region.obstacle) {
+      Fixed fixed;
+      fixed.obstacle.id = kFirstObstacle + static_cast<ColliderId>(*region.obstacle);
+      for (const std::size_t node : nodes) fixed.nodes.push_back({node, Vec3::Zero()});
+      fixed_.push_back(std::move(fixed));
+    }
+    if (region.path.empty()) continue;
+    Path path{region.path, region.loop, {}};
+    const Vec3 offset = along_path(region.path, time, region.loop);
+    for (const std::size_t node : nodes) {
+      const Vec3 local = weft::at<Real>(kernels::components(particles.position), node);
+      path.nodes.push_back({node, particles.place + local - offset});
+    }
+    end_of_motion_ = std::max(
+        end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
+    carried_.push_back(std::move(path));
+  }
+}
+
+template Pins<float>::Pins(const std::vector<PinRegion>&, double, Particles<float>&, const Seam<float>*);
+template Pins<double>::Pins(const std::vector<PinRegion>&, double, Particles<double>&, const Seam<double>*);
+
+}  // namespace weft

@@ -1,0 +1,75 @@
+#pragma once
+#include <vector>
+
+#include "cloth/core/description.h"
+#include "cloth/core/particles.h"
+#include "cloth/core/path.h"
+#include "cloth/shapes/solid.h"
+#include "cloth/sheet/seam.h"
+
+namespace weft {
+
+/// A cloth's pins at one level: which nodes are held, and where those go whose regions have a path or are
+/// fixed to an obstacle.
+template <class Real>
+class Pins {
+ public:
+  Pins() = default;
+  /// Holds the nodes of all regions: their inverse mass becomes 0 (the others' 1/mass), their velocity 0. The
+  /// particles are where they are at `time`, s. With a seam, whose nodes are held both or neither.
+  Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
+       const Seam<Real>* seam = nullptr);
+
+  /// Whether any pin has a path or an obstacle.
+  bool moving() const { return !carried_.empty() || !fixed_.empty(); }
+  /// A step of `dt` from `time` on, s, in which the solids go as they do. True if some pin moves in it; one
+  /// whose obstacle is not there stands still.
+  bool begin_step(const Particles<Real>& particles, const std::vector<Solid>& solids, double time, double dt);
+  /// Puts the nodes that move where they are at `time`, s, within the step that has begun.
+  void carry(Particles<Real>& particles, double time) const;
+  /// The longest way that a path goes from `begin` to `end`, s, in m; as straight in each eighth of the time.
+  double longest_way(double begin, double end) const;
+  /// Calls visit(node, way) for the nodes that move, with their way from `begin` to `end`, s, in m.
+  template <class Visit>
+  void for_each_way(double begin, double end, Visit visit) const {
+    for (const Path& path : carried_) {
+      const Vec3 way = along_path(path.points, end, path.loops) - along_path(path.points, begin, path.loops);
+      for (const Carried& carried : path.nodes) visit(carried.node, way);
+    }
+    for (const Fixed& fixed : fixed_) {
+      if (!fixed.placed || !fixed.obstacle.moves()) continue;
+      const PlacedShape from = at(fixed, begin), to = at(fixed, end);
+      for (const Carried& carried : fixed.nodes) {
+        visit(carried.node, Vec3(to.centre - from.centre + (to.rotation - from.rotation) * carried.origin));
+      }
+    }
+  }
+
+ private:
+  struct Carried {
+    std::size_t node;
+    Vec3 origin;  ///< where it is in the world at offset 0, m
+  };
+  struct Path {
+    std::vector<Waypoint> points;
+    bool loops;
+    std::vector<Carried> nodes;
+  };
+  /// Nodes on an obstacle. Their places as seen from it are taken in the first step and kept from then on.
+  struct Fixed {
+    Solid obstacle;              ///< as it goes in the step
+    std::vector<Carried> nodes;  ///< origin: in the obstacle's own frame
+    bool placed = false;
+  };
+  /// The obstacle at `time`, s, within the step.
+  PlacedShape at(const Fixed& fixed, double time) const {
+    return fixed.obstacle.placed((time - begin_) / step_);
+  }
+
+  std::vector<Path> carried_;
+  std::vector<Fixed> fixed_;
+  double end_of_motion_ = 0;     ///< when the last path ends, s; infinite if one loops
+  double begin_ = 0, step_ = 1;  ///< of the step, s
+};
+
+}  // namespace weft

@@ -1,0 +1,319 @@
+#include "cloth/world/cloth.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "cloth/levels/refine.h"
+#include "cloth/levels/unfold.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/start.h"
+#include "cloth/sheet/tear/mend.h"
+#include "cloth/sheet/tear/pieces.h"
+#include "cloth/sheet/tear/tearing.h"
+
+namespace weft {
+namespace {
+
+/// Share of the springs' energy by which rounding the new nodes of a split may raise it.
+constexpr double kRounded = 0.005;
+
+}  // namespace
+
+template <class Real>
+Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<EffectDescription>& effects,
+                   const IntegratorDescription& integrator, std::uint64_t seed, double sleep_speed)
+    : description_(description),
+      total_mass_(description.material.density * description.size.x() * description.size.y()),
+      integrator_(make_integrator<Real>(integrator)),
+      guard_(integrator),
+      sleep_(sleep_speed) {
+  compose(effects);
+  const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
+  enter_level(level, start<Real>(description_, level));
+  perturb(description_, seed, particles_);
+  if (seam_) seam_->join(particles_);
+  fill();
+  begins_ = !description_.nodes.empty() && !description_.sewn;
+  hand_to_guard();
+}
+
+template <class Real>
+void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
+  auto composed = make_effects<Real>(effects);
+  const std::size_t count = composed.size();
+  const auto added = effects_.begin() + static_cast<std::ptrdiff_t>(composed_);
+  std::move(added, effects_.end(), std::back_inserter(composed));
+  effects_ = std::move(composed);
+  composed_ = count;
+  const Vec3 gravity = total_gravity(effects);
+  had_ += gravitational_energy(particles_, gravity - gravity_);
+  gravity_ = gravity;
+  damping_time_ = 0;
+  bends_plate_ = limits_strain_ = false;
+  tearing_.reset();
+  filling_.reset();
+  for (const EffectDescription& effect : effects) {
+    const auto* inflation = std::get_if<InflationEffect>(&effect);
+    if (inflation != nullptr && inflation->volume && description_.sewn) filling_ = *inflation;
+    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
+    if (const auto* tearing = std::get_if<TearingEffect>(&effect)) tearing_ = *tearing;
+    bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
+    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
+  }
+}
+
+template <class Real>
+void Cloth<Real>::fill() {
+  if (!filling_) {
+    gas_.reset();
+  } else if (!gas_ || gas_->inflation() != *filling_) {
+    const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
+    gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
+    if (!gas_->fills(time_)) unsettled_ = Unsettled::by_gas;
+  }
+}
+
+template <class Real>
+ContactCounters Cloth<Real>::contact_counters() const {
+  return contact_ ? earlier_contacts_ + contact_->counters() : earlier_contacts_;
+}
+
+template <class Real>
+double Cloth<Real>::elastic_energy() const {
+  return springs_.energy(particles_.position) + (plate_ ? plate_->energy(particles_.position) : 0.0);
+}
+
+template <class Real>
+double Cloth<Real>::energy_of_nodes() const {
+  return kinetic_energy(particles_) + gravitational_energy(particles_, gravity_);
+}
+
+template <class Real>
+void Cloth<Real>::request_level(int level) {
+  pending_level_ = std::clamp(level, description_.min_level, description_.max_level);
+}
+
+template <class Real>
+bool Cloth<Real>::apply_pending_level() {
+  if (std::exchange(begins_, false) && is_tangled(particles_, springs_)) {
+    unfold(particles_, description_, level_);
+    hand_to_guard();
+  }
+  const int target = pending_level_.value_or(level_);
+  pending_level_.reset();
+  const bool changes = target != level_;
+  if (!changes) return false;
+  guard_.repair(particles_);
+  held_ = elastic_energy();
+  had_ = held_ + energy_of_nodes();
+  if (target > level_) held_ *= 1 + kRounded;
+  while (level_ != target) {
+    const int next = level_ < target ? level_ + 1 : level_ - 1;
+    Particles<Real> particles(description_.base_cells.at(next));
+    const bool by_area = description_.discretization == Discretization::continuum;
+    if (next > level_) {
+      split(particles_, particles);
+      if (walls_) {
+        part_pieces(*torn_, next, *walls_);
+        mend_split(walls_->at(next), cell(particles.grid()), particles);
+      }
+    } else {
+      merge(particles_, particles);
+      if (by_area && torn_) merge_torn_momentum(particles_, *torn_, particles);
+      if (by_area && !torn_) merge_momentum(particles_, particles);
+    }
+    enter_level(next, std::move(particles));
+  }
+  // The paper's own rules change levels as the paper does.
+  if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum)
+    unsettled_ = Unsettled::by_level;
+  return true;
+}
+
+template <class Real>
+void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
+  level_ = level;
+  particles_ = std::move(particles);
+  mass_distribution(total_mass_, description_.discretization, particles_.mass);
+  if (description_.sewn) {
+    seam_.emplace(particles_.grid());
+    seam_->join(particles_);
+  }
+  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
+  if (walls_) take_over_walls();
+  make_springs();
+  earlier_contacts_ = contact_counters();
+  contact_.reset();
+  integrator_->restart();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::hand_to_guard() {
+  const Grid& grid = particles_.grid();
+  // A piece that falls off gets as far as it likes from what hangs.
+  const bool held = description_.material.structural > 0 && !torn_;
+  const double infinite = std::numeric_limits<double>::infinity();
+  guard_.enter(particles_, held ? cell(grid) : Vec2(infinite, infinite));
+}
+
+template <class Real>
+void Cloth<Real>::make_springs() {
+  springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
+                           particles_.grid(), damping_time_, limits_strain_);
+  if (torn_) springs_.tear(torn_);
+  plate_.reset();
+  if (bends_plate_)
+    plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass, torn_.get());
+}
+
+template <class Real>
+void Cloth<Real>::tear() {
+  if (surely_holds(springs_, particles_.position, *tearing_)) return;
+  const std::vector<Link> breaking =
+      links_to_break(link_loads(springs_, particles_.position, *tearing_), torn_.get());
+  if (breaking.empty()) return;
+  if (!walls_) walls_.emplace(description_.base_cells, description_.max_level);
+  for (const Link& link : breaking) walls_->add(level_, link);
+  take_over_walls();
+  make_springs();
+  if (plate_) integrator_->restart();  // which has its own copies of the plate
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::take_over_walls() {
+  torn_ = std::make_shared<const TornLinks>(walls_->at(level_));
+  whole_faces_ = torn_->whole_faces();
+}
+
+template <class Real>
+void Cloth<Real>::set_integrator(const IntegratorDescription& integrator) {
+  integrator_ = make_integrator<Real>(integrator);
+  guard_.set_integrator(integrator);
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
+  guard_.repair(particles_);
+  compose(effects);
+  fill();
+  make_springs();
+  node_air_.reset();
+  integrator_ = make_integrator<Real>(guard_.method());  // without the arrays of what is gone
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::tune_effects(const std::vector<EffectDescription>& effects) {
+  const double damping_time = damping_time_;
+  guard_.repair(particles_);
+  compose(effects);
+  if (damping_time_ != damping_time) return set_effects(effects);
+  fill();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::set_material(const Material& material) {
+  if (material == description_.material) return;
+  guard_.repair(particles_);
+  description_.material = material;
+  const double before = elastic_energy();
+  make_springs();
+  held_ += elastic_energy() - before;  // what it gains so is no level's
+  had_ += elastic_energy() - before;
+  integrator_->stiffness_changed();
+  hand_to_guard();
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::add_effect(std::unique_ptr<Effect<Real>> effect) {
+  effects_.push_back(std::move(effect));
+  wake();
+}
+
+template <class Real>
+void Cloth<Real>::grab(const Grab& grab) {
+  if (grabs_ == nullptr) {
+    auto grabs = std::make_unique<Grabs<Real>>();
+    grabs_ = grabs.get();
+    effects_.push_back(std::move(grabs));
+  }
+  grabs_->add(grab);
+  wake();
+}
+
+template <class Real>
+bool Cloth<Real>::move_grab(GrabId id, const Vec3& hand) {
+  if (grabs_ == nullptr || !grabs_->move(id, hand)) return false;
+  wake();
+  return true;
+}
+
+template <class Real>
+bool Cloth<Real>::release(GrabId id) {
+  if (grabs_ == nullptr || !grabs_->release(id)) return false;
+  if (grabs_->empty()) {
+    std::erase_if(effects_, [&](const auto& effect) { return effect.get() == grabs_; });
+    grabs_ = nullptr;
+  }
+  wake();
+  return true;
+}
+
+template <class Real>
+const std::vector<Grab>& Cloth<Real>::grabs() const {
+  static const std::vector<Grab> none;
+  return grabs_ == nullptr ? none : grabs_->all();
+}
+
+template <class Real>
+void Cloth<Real>::pin(const Vec2& at) {
+  description_.pins.push_back({at.x(), at.x(), at.y(), at.y()});
+  set_pins();
+}
+
+template <class Real>
+bool Cloth<Real>::unpin(const Vec2& at) {
+  std::vector<PinRegion>& pins = description_.pins;
+  if (pins.empty()) return false;
+  const auto distance = [&](const PinRegion& pin) {
+    const Vec2 nearest(std::clamp(at.x(), pin.u_min, pin.u_max), std::clamp(at.y(), pin.v_min, pin.v_max));
+    return (nearest - at).cwiseProduct(description_.size).norm();
+  };
+  pins.erase(std::min_element(pins.begin(), pins.end(), [&](const PinRegion& a, const PinRegion& b) {
+    return distance(a) < distance(b);
+  }));
+  set_pins();
+  return true;
+}
+
+template <class Real>
+void Cloth<Real>::moved_from_outside() {
+  guard_.amend(particles_);
+  if (asleep()) wake();
+}
+
+template <class Real>
+void Cloth<Real>::set_pins() {
+  guard_.repair(particles_);
+  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
+  make_springs();  // a plate is clamped where it is held
+  integrator_->restart();
+  hand_to_guard();
+  wake();
+}
+
+template class Cloth<float>;
+template class Cloth<double>;
+
+}  // namespace weft
