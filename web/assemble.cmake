@@ -1,8 +1,11 @@
-# cmake -D PAGE=dir -D OWN_FILES=... -D CLIENT_FILES=... -D THREE=dir -D UPLOT=dir -P assemble.cmake
+# cmake -D PAGE=dir -D SOURCE=dir -D OWN_FILES=... -D CLIENT_FILES=... -D THREE=dir -D UPLOT=dir -P assemble.cmake
 # Puts together the directory that is served. Every import in it is relative: the page runs without a bundler and without an
 # import map, which a strict content security policy would refuse.
 file(REMOVE_RECURSE ${PAGE})
-file(COPY ${OWN_FILES} DESTINATION ${PAGE})
+foreach(file ${OWN_FILES})
+  cmake_path(GET file PARENT_PATH folder)
+  file(COPY ${SOURCE}/${file} DESTINATION ${PAGE}/${folder})
+endforeach()
 file(COPY ${CLIENT_FILES} DESTINATION ${PAGE}/protocol)
 file(COPY ${THREE}/build/three.module.js ${THREE}/build/three.core.js ${THREE}/LICENSE DESTINATION ${PAGE}/three)
 file(COPY ${UPLOT}/dist/uPlot.esm.js ${UPLOT}/dist/uPlot.min.css ${UPLOT}/LICENSE DESTINATION ${PAGE}/uplot)

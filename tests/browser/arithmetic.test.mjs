@@ -1,15 +1,15 @@
 // The page's arithmetic: plain modules without a browser.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {chartColumns, choiceFor, digits, neighbourText, percent, spanText} from '../../web/cost_curve.js';
-import {creased} from '../../web/creased.js';
-import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, tornNormals, tornOn, triangleIndices} from '../../web/grid.js';
-import {Morph} from '../../web/morph.js';
-import {addressOfScene, readSettings} from '../../web/settings.js';
-import {ThrowSpeed} from '../../web/throw_speed.js';
-import {Timeline} from '../../web/timeline.js';
-import {Tuner, kTuneMs, sliderSpan, unitText} from '../../web/tuning.js';
-import {anglesOf, directionOf} from '../../web/wind_angles.js';
+import {chartColumns, choiceFor, digits, neighbourText, percent, spanText} from '../../web/panels/cost_curve.js';
+import {creased} from '../../web/view/creased.js';
+import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, splitTo, tornNormals, tornOn, triangleIndices} from '../../web/view/grid.js';
+import {Morph} from '../../web/view/morph.js';
+import {addressOfScene, readSettings} from '../../web/app/settings.js';
+import {ThrowSpeed} from '../../web/input/throw_speed.js';
+import {Timeline} from '../../web/view/timeline.js';
+import {Tuner, kTuneMs, sliderSpan, unitText} from '../../web/panels/tuning.js';
+import {anglesOf, directionOf} from '../../web/panels/wind_angles.js';
 
 /** A flat hanging sheet of `cells` x `cells`, 1 m wide, its top left corner at the origin. */
 function sheet(cells, z = 0) {

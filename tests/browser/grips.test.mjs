@@ -1,7 +1,7 @@
 // What a hand does to what it drags, as commands: in Node, without a page.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {BallGrip, BodyGrip, ObstacleGrip} from '../../web/grips.js';
+import {BallGrip, BodyGrip, ObstacleGrip} from '../../web/input/grips.js';
 
 /** Collects commands; `obstacle.grab` is answered when the test says so. */
 function recorder() {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {digits, percent, spanText} from '../../web/cost_curve.js';
+import {digits, percent, spanText} from '../../web/panels/cost_curve.js';
 import {openScene, startServer, until} from './harness.mjs';
 
 let server, page, witness;

@@ -1,12 +1,12 @@
-import {BallsView} from './balls_view.js';
-import {ClothView, clothMaterials} from './cloth_view.js';
-import {Loupe} from './loupe.js';
-import {MarksView} from './marks_view.js';
-import {ObstaclesView} from './obstacles_view.js';
-import {Timeline} from './timeline.js';
-import {weaveTextures} from './weave.js';
-import {WindArrow} from './wind_arrow.js';
-import {ZonesView} from './zones_view.js';
+import {BallsView} from '../view/balls_view.js';
+import {ClothView, clothMaterials} from '../view/cloth_view.js';
+import {Loupe} from '../view/loupe.js';
+import {MarksView} from '../view/marks_view.js';
+import {ObstaclesView} from '../view/obstacles_view.js';
+import {Timeline} from '../view/timeline.js';
+import {weaveTextures} from '../view/weave.js';
+import {WindArrow} from '../view/wind_arrow.js';
+import {ZonesView} from '../view/zones_view.js';
 
 const kWindEffects = ['paper_wind', 'aerodynamics'];
 const kFabric = {warp: [44, 88, 148], weft: [70, 116, 176], stripe: [246, 236, 214]};
@@ -16,7 +16,7 @@ const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - cent
 /** One scene on the stage, as the server's messages and frames tell it. */
 export class Show {
   /**
-   * @param {import('./stage.js').Stage} stage
+   * @param {import('../view/stage.js').Stage} stage
    * @param {{instant: boolean, wireframe: boolean, high: boolean}} options
    */
   constructor(stage, options) {

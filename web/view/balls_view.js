@@ -1,4 +1,4 @@
-import {Color, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3} from './three/three.module.js';
+import {Color, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3} from '../three/three.module.js';
 
 const kColours = [0xe4572e, 0x2e86ab, 0xf2a541, 0x4c9f70, 0x8e5bb5, 0xd1495b];
 

@@ -124,7 +124,7 @@ export class CostPanel {
 
   async #makeChart(level, columns) {
     this.chartLevel = level;
-    const {default: Chart} = await import('./uplot/uPlot.esm.js');
+    const {default: Chart} = await import('../uplot/uPlot.esm.js');
     if (this.chartLevel !== level) return;  // another one was wanted meanwhile
     this.chart?.destroy();
     this.chart = new Chart(chartOptions(byId('cost-chart').clientWidth), columns, byId('cost-chart'));

@@ -1,7 +1,7 @@
 import {
   CanvasTexture, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping, PCFShadowMap,
   PerspectiveCamera, PlaneGeometry, RepeatWrapping, Scene, ShadowMaterial, SRGBColorSpace, Vector3, WebGLRenderer,
-} from './three/three.module.js';
+} from '../three/three.module.js';
 
 const kThemes = {
   light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, shadow: 0.22},
@@ -15,7 +15,7 @@ const kGroundGap = 0.02;  // m, to the lowest thing above it
 export class Stage {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import('./settings.js').Settings} settings
+   * @param {import('../app/settings.js').Settings} settings
    */
   constructor(canvas, settings) {
     this.renderer = new WebGLRenderer({canvas, antialias: settings.high});

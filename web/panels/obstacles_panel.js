@@ -11,7 +11,7 @@ export class ObstaclesPanel {
    */
   constructor(actions) {
     this.live = false;
-    /** @type {import('./client/weft.js').Obstacle[]} the scene's, in its order */
+    /** @type {import('../protocol/weft.js').Obstacle[]} the scene's, in its order */
     this.obstacles = [];
     this.place = new PlaceFields(byId('obstacle-place'), (position) => actions.move(this.chosen, position));
     this.friction = new FrictionRow(byId('obstacle-friction'), actions.setFriction);
@@ -32,7 +32,7 @@ export class ObstaclesPanel {
     this.#enable();
   }
 
-  /** @param {import('./client/weft.js').Obstacle[]} obstacles the scene's */
+  /** @param {import('../protocol/weft.js').Obstacle[]} obstacles the scene's */
   begin(obstacles) {
     this.obstacles = obstacles;
     byId('obstacles').hidden = obstacles.length === 0;

@@ -1,4 +1,4 @@
-import {BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, Points, PointsMaterial, Vector3} from './three/three.module.js';
+import {BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, Points, PointsMaterial, Vector3} from '../three/three.module.js';
 
 const kPinColour = 0xd1495b, kHandColour = 0xf2a541;
 const kPinPixels = 9, kHandPixels = 17;

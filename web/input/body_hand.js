@@ -1,4 +1,4 @@
-import {Plane, Vector3} from './three/three.module.js';
+import {Plane, Vector3} from '../three/three.module.js';
 import {BallGrip, BodyGrip, ObstacleGrip} from './grips.js';
 import {Pointing} from './pointing.js';
 import {ThrowSpeed} from './throw_speed.js';
@@ -12,8 +12,8 @@ const kFastest = 25;  // m/s, of a throw
  */
 export class BodyHand {
   /**
-   * @param {import('./stage.js').Stage} stage
-   * @param {import('./show.js').Show} show
+   * @param {import('../view/stage.js').Stage} stage
+   * @param {import('../app/show.js').Show} show
    * @param {{command: (message: object, expected?: string) => Promise<object|null>, taken: (thing: {ball?: number, obstacle?: number}) => void,
    *          holding: (holds: boolean) => void}} actions
    */

@@ -1,4 +1,4 @@
-import {Plane, Vector3} from './three/three.module.js';
+import {Plane, Vector3} from '../three/three.module.js';
 import {Pointing} from './pointing.js';
 
 const kMoveMs = 33;      // between two grab.move while dragging
@@ -13,8 +13,8 @@ const kPinReach = 0.04;  // of the cloth's shorter side: a pin so near to a doub
  */
 export class ClothHand {
   /**
-   * @param {import('./stage.js').Stage} stage
-   * @param {import('./show.js').Show} show
+   * @param {import('../view/stage.js').Stage} stage
+   * @param {import('../app/show.js').Show} show
    * @param {{grab: (cloth: number, u: number, v: number, position: number[]) => Promise<number|null>, move: (grab: number, position: number[]) => void,
    *          release: (grab: number) => void, pin: (cloth: number, u: number, v: number) => void, unpin: (cloth: number, u: number, v: number) => void}} actions
    */

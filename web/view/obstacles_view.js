@@ -1,6 +1,6 @@
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Group, Mesh, MeshStandardMaterial, PlaneGeometry, Vector3,
-} from './three/three.module.js';
+} from '../three/three.module.js';
 import {creased} from './creased.js';
 
 const kColour = 0xb9b2a6;
@@ -20,7 +20,7 @@ export class ObstaclesView {
     this.meshes = [];
   }
 
-  /** @param {import('./client/weft.js').Obstacle[]} obstacles */
+  /** @param {import('../protocol/weft.js').Obstacle[]} obstacles */
   show(obstacles) {
     this.clear();
     this.meshes = obstacles.map((obstacle, index) => this.#mesh(obstacle, index));

@@ -1,7 +1,7 @@
 import {
   CircleGeometry, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, Group, HemisphereLight, Mesh, MeshBasicMaterial,
   MeshStandardMaterial, OrthographicCamera, Quaternion, RingGeometry, Scene, Spherical, Vector3,
-} from './three/three.module.js';
+} from '../three/three.module.js';
 
 /** The arrow is seen from at least this far above the horizon, or one flying straight away would be a dot. */
 const kLeastElevation = Math.PI / 6;
@@ -50,8 +50,8 @@ export class WindArrow {
 
   /**
    * Draws over what is on the canvas.
-   * @param {import('./three/three.module.js').WebGLRenderer} renderer
-   * @param {import('./three/three.module.js').Camera} view whose direction is taken over
+   * @param {import('../three/three.module.js').WebGLRenderer} renderer
+   * @param {import('../three/three.module.js').Camera} view whose direction is taken over
    */
   draw(renderer, view) {
     if (this.place.hidden) return;

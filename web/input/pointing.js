@@ -1,8 +1,8 @@
-import {Raycaster, Vector2} from './three/three.module.js';
+import {Raycaster, Vector2} from '../three/three.module.js';
 
 /** What lies under a point of the window. */
 export class Pointing {
-  /** @param {import('./stage.js').Stage} stage */
+  /** @param {import('../view/stage.js').Stage} stage */
   constructor(stage) {
     this.stage = stage;
     this.canvas = stage.renderer.domElement;

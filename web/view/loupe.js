@@ -1,4 +1,4 @@
-import {PerspectiveCamera, Vector2, Vector3} from './three/three.module.js';
+import {PerspectiveCamera, Vector2, Vector3} from '../three/three.module.js';
 
 /** Below this it would show no more than the picture does. */
 const kLeastMagnification = 1.25;

@@ -1,4 +1,4 @@
-import {ArrowHelper, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, SphereGeometry, Vector3} from './three/three.module.js';
+import {ArrowHelper, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, SphereGeometry, Vector3} from '../three/three.module.js';
 
 const kColour = 0x2e86ab;
 const kStill = 0.05;  // m/s: slower air has no arrow
@@ -11,7 +11,7 @@ export class ZonesView {
     this.told = '';
   }
 
-  /** @param {import('./protocol/weft.js').WindZone[]} zones as `wind` has them */
+  /** @param {import('../protocol/weft.js').WindZone[]} zones as `wind` has them */
   show(zones) {
     const told = JSON.stringify(zones);
     if (told === this.told) return;

@@ -17,7 +17,7 @@
  *   {kind: 'reply', key, message | error}
  *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
  */
-import {backoff, WeftClient} from './protocol/weft.js';
+import {backoff, WeftClient} from '../protocol/weft.js';
 
 const kBeatMs = 5000;  // between two pings
 const kListMs = 4000;  // longest wait for the list of scenes

@@ -1,4 +1,4 @@
-import {CanvasTexture, RepeatWrapping, SRGBColorSpace} from './three/three.module.js';
+import {CanvasTexture, RepeatWrapping, SRGBColorSpace} from '../three/three.module.js';
 
 /** One repeat of the pattern: threads across it, and the width of cloth it covers. Threads of 6 mm: coarse, so that they show. */
 const kThreads = 64;

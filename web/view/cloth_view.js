@@ -1,7 +1,7 @@
 import {
   BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
   MeshLambertMaterial, MeshStandardMaterial,
-} from './three/three.module.js';
+} from '../three/three.module.js';
 import {centreOf, gridNormals, lowestOf, materialCoordinates, sideIndices, tornNormals, tornOn, triangleIndices} from './grid.js';
 import {Morph} from './morph.js';
 

@@ -1,19 +1,19 @@
-import {BodyHand} from './body_hand.js';
-import {CameraRig, ViewReporter} from './camera_rig.js';
-import {ClothHand} from './cloth_hand.js';
-import {CostPanel} from './cost_panel.js';
-import {EffectsPanel} from './effects_panel.js';
+import {BodyHand} from '../input/body_hand.js';
+import {CameraRig, ViewReporter} from '../input/camera_rig.js';
+import {ClothHand} from '../input/cloth_hand.js';
+import {CostPanel} from '../panels/cost_panel.js';
+import {EffectsPanel} from '../panels/effects_panel.js';
 import {publishHook} from './hook.js';
 import {Hud} from './hud.js';
-import {listenToKeys} from './keyboard.js';
-import {Link} from './link.js';
-import {MaterialPanel} from './material_panel.js';
-import {ObstaclesPanel} from './obstacles_panel.js';
-import {Panel} from './panel.js';
+import {listenToKeys} from '../input/keyboard.js';
+import {Link} from '../connection/link.js';
+import {MaterialPanel} from '../panels/material_panel.js';
+import {ObstaclesPanel} from '../panels/obstacles_panel.js';
+import {Panel} from '../panels/panel.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Show} from './show.js';
-import {Stage} from './stage.js';
-import {ZonesPanel} from './zones_panel.js';
+import {Stage} from '../view/stage.js';
+import {ZonesPanel} from '../panels/zones_panel.js';
 
 const kBallRadius = 0.2;
 const kButtonThrow = 7;  // m/s

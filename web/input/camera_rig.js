@@ -1,5 +1,5 @@
-import {Vector3} from './three/three.module.js';
-import {OrbitControls} from './three/OrbitControls.js';
+import {Vector3} from '../three/three.module.js';
+import {OrbitControls} from '../three/OrbitControls.js';
 
 export const kNearest = 0.5;
 export const kFarthest = 20;
@@ -13,7 +13,7 @@ const kZoomStep = 1.15;
 /** Orbit around the cloth with mouse, touch and keys. Distances are the camera's own, from a centre given each frame. */
 export class CameraRig {
   /**
-   * @param {import('./stage.js').Stage} stage
+   * @param {import('../view/stage.js').Stage} stage
    * @param {boolean} instant no flights, no gliding
    */
   constructor(stage, instant) {
