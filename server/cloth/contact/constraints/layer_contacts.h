@@ -38,10 +38,10 @@ struct LayerParameters {
 /// is stiffened where layers are pressed far into their gap, is taken away if it pulls, and drags with at
 /// most friction times the force of the step before. That force also pushes on, so that the spring has only
 /// to give the change (an augmented Lagrangian: Nocedal and Wright, Numerical Optimization, 2006, 17.3):
-/// however strongly a rope is wrung, its layers come to stand in equilibrium with all other forces, and
-/// nothing is put right at nobody's cost. What would still pass through each other at the end of the step's
-/// iterations is held, too, and more are made. Layers nearer than their gap are led apart by a part of what
-/// they lack a step, near rest until they have half of it.
+/// however strongly a rope is wrung, its layers come to equilibrium with all other forces, and no correction
+/// after the step adds energy. Features that would still pass through each other at the end of the step's
+/// iterations are held, too, and further iterations follow. Layers nearer than their gap are separated by a
+/// share of what they lack in each step, near rest until they have half of it.
 ///
 /// To an explicit substep it is an inelastic impulse, and a drag on what separates slowly; and what it misses
 /// within the cloth SubstepNet holds.
