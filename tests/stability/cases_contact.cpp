@@ -1,13 +1,13 @@
 // Cloth that meets cloth: S51. What holds for all: no triangle passes through another one, by a test of its
-// own that decides exactly (unit/cloth/intersections.h), and layers bring in no energy.
+// own that decides exactly (unit/cloth/fixtures/intersections.h), and layers bring in no energy.
 #include <algorithm>
 #include <limits>
 #include <memory>
 
 #include "criteria.h"
-#include "unit/cloth/folding_scenes.h"
-#include "unit/cloth/held.h"
-#include "unit/cloth/intersections.h"
+#include "unit/cloth/fixtures/folding_scenes.h"
+#include "unit/cloth/fixtures/held.h"
+#include "unit/cloth/fixtures/intersections.h"
 
 namespace weft::stability {
 namespace {

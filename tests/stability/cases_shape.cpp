@@ -171,8 +171,8 @@ Case jerked_at_limit() {
 }
 
 /// A row at the same place as the next, a column as well. What a row of rest length zero would ask of the
-/// springs is asked of them alone (Spring and SheetForces in tests/unit/cloth/springs_test.cpp): a family of
-/// springs has one rest length, the cell's, so that no scene can say it of a single row.
+/// springs is asked of them alone (Spring and SheetForces in tests/unit/cloth/sheet/springs_test.cpp): a
+/// family of springs has one rest length, the cell's, so that no scene can say it of a single row.
 Case coincident() {
   const auto scene = [](const Setup& setup) {
     const int middle = 1 << (setup.level - 1);
