@@ -87,7 +87,7 @@ test('behind a proxy the page asks for everything below its own path', async () 
   for (let tries = 0; !proxy.asked.some((path) => path.includes('/meshes/')) && tries < kPatienceMs / 100; ++tries) await sleep(100);
   await page.close();
   proxy.stop();
-  for (const path of ['main.js', 'three/three.module.js', 'worker.js', 'v1/scenes', 'v1/scenes/flag', 'v1/scenes/round-table/meshes/0']) {
+  for (const path of ['app/main.js', 'three/three.module.js', 'connection/worker.js', 'v1/scenes', 'v1/scenes/flag', 'v1/scenes/round-table/meshes/0']) {
     assert.ok(proxy.asked.includes(`/cloth/${path}`), `no request for ${path} in ${proxy.asked}`);
   }
   assert.deepEqual(proxy.asked.filter((path) => !path.startsWith('/cloth/')), []);

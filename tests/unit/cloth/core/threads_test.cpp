@@ -274,9 +274,9 @@ TEST(Threads, TearingClothsHaveTheSameBitsOnAnyNumber) {
   SimulationDescription scene = stacked_sheets();
   scene.effects.push_back(TearingEffect{5, 5});
   Simulation<float> tears(scene);
-  for (int i = 0; i < kStackSteps / 4; ++i) tears.step();
+  for (int i = 0; i < kStackSteps / 3; ++i) tears.step();
   EXPECT_NE(tears.cloths()[0].walls(), nullptr);
-  expect_same_bits(scene, kAll, kStackSteps / 4, 0);
+  expect_same_bits(scene, kAll, kStackSteps / 3, 0);
 }
 
 /// The stack falls on a floor among bodies that fall, too: they meet the sheets, each other and the floor.
