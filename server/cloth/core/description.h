@@ -239,8 +239,8 @@ struct ImplicitParameters {
   /// Linearisations a substep, >= 1: fewer when one is accurate enough, more where the motion is rough or
   /// would gain energy.
   int newton_iterations = 2;
-  /// Largest number of iterations of a linear solve, >= 1. With 60, which some presets reach, springs of
-  /// 1e7 N/m are stretched 1.75 times as far as with 200.
+  /// Largest number of iterations of a linear solve, >= 1. Some presets reach 60; with that as the limit
+  /// springs of 1e7 N/m are stretched 1.75 times as far as a hard case allows.
   int linear_iterations = 200;
   bool operator==(const ImplicitParameters&) const = default;
 };
