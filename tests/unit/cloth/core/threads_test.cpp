@@ -308,6 +308,11 @@ TEST(Threads, BodiesAmongClothsHaveTheSameBitsOnAnyNumber) {
                    kStackSteps >= 60 ? 4 : 0);
 }
 
+TEST(ThreadsNightly, BodiesAmongClothsByTheOtherMethodsHaveTheSameBitsOnAnyNumber) {
+  expect_same_bits(bodies_among_sheets(), {XpbdDescription{}, BackwardEulerDescription{}}, kStackSteps,
+                   kStackSteps >= 60 ? 4 : 0);
+}
+
 TEST(Threads, ALargeClothHasTheSameBitsOnAnyNumber) {
   expect_same_bits(large_sheet(), kImplicit, kLargeSteps, 1, kRepeats);
 }
