@@ -192,4 +192,17 @@ class DotProduct {
   double sums_[kLinkGroup]{};
 };
 
+/// a . b on the rows.
+template <class Real>
+[[gnu::always_inline]] inline double dot_rows(const Grid& grid, const Components<const Real>& a,
+                                              const Components<const Real>& b, RowRange rows) {
+  double sum = 0;
+  for (int r = rows.begin; r < rows.end; ++r) {
+    DotProduct<Real> dot;
+    dot.add_row(a, b, static_cast<std::ptrdiff_t>(grid.index(r, 0)), grouped(grid.cols));
+    sum += dot.sum();
+  }
+  return sum;
+}
+
 }  // namespace weft::kernels

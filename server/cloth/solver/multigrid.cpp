@@ -139,6 +139,7 @@ Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Rea
     if (coarse_plate) coarse_plate = coarse_plate->coarser();
     coarse_.emplace_back(grid, false, coarse_plate ? &*coarse_plate : nullptr);
   }
+  if (!sewn) lines_.emplace(finest);
   if (sewn) {
     seams_.emplace_back(finest);
     for (const Coarse& level : coarse_) seams_.emplace_back(level.matrix.grid);
@@ -167,6 +168,9 @@ template <class Fine>
 void Multigrid<Real>::prepare_level(Fine& level, std::size_t index) {
   level.weigh_plate();
   const auto smoothed = level.smoothed();
+  if constexpr (std::is_same_v<Fine, GridLevel<Real, kernels::SpringLinks<Real>>>) {
+    if (lines_) return lines_->factorise(smoothed);
+  }
   level.bands.for_each([&](kernels::RowRange rows, int) {
     kernels::invert_diagonal(smoothed, static_cast<Real>(kDamping), level.inverse, rows);
   });
@@ -234,21 +238,55 @@ double Multigrid<Real>::precondition(kernels::Components<const Real> r, kernels:
 
 template <class Real>
 template <class Links>
-double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
-                              kernels::Components<const Real> b, kernels::Components<Real> z) {
-  const Grid& grid = level.matrix.grid;
+void Multigrid<Real>::smooth_first(GridLevel<Real, Links>& level, kernels::Components<const Real> b) {
+  if constexpr (std::is_same_v<Links, kernels::SpringLinks<Real>>) {
+    if (lines_) return lines_->start(level.matrix, b, level.x);
+  }
   level.bands.for_each_stretch([&](std::size_t first, std::size_t count) {
     kernels::apply_blocks(level.inverse + first, b + first, level.x + first, count);
   });
+}
+
+template <class Real>
+template <class Links>
+double Multigrid<Real>::smooth_last(GridLevel<Real, Links>& level, kernels::Components<const Real> b,
+                                    kernels::Components<Real> z) {
+  if constexpr (std::is_same_v<Links, kernels::SpringLinks<Real>>) {
+    if (lines_) {
+      find_residual(level, b);
+      return lines_->finish(level.matrix, {level.y, level.x, b, z});
+    }
+  }
+  return level.bands.sum([&](kernels::RowRange rows, int band) {
+    const double links =
+        kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
+    if (!level.cycles_plate) return links;
+    return links + kernels::relax_plate<Real>(level.plate->stencils(), level.matrix.grid, level.inverse,
+                                              level.x, b, z, rows, work(band));
+  });
+}
+
+template <class Real>
+template <class Links>
+void Multigrid<Real>::find_residual(GridLevel<Real, Links>& level, kernels::Components<const Real> b) {
+  level.bands.for_each([&](kernels::RowRange rows, int band) {
+    kernels::residual<Real, Links>(level.matrix, level.x, b, level.y, rows, work(band));
+    if (!level.cycles_plate) return;
+    kernels::subtract_plate<Real>(level.plate->stencils(), level.matrix.grid, level.x, level.matrix.free,
+                                  level.y, rows, work(band));
+  });
+}
+
+template <class Real>
+template <class Links>
+double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
+                              kernels::Components<const Real> b, kernels::Components<Real> z) {
+  const Grid& grid = level.matrix.grid;
+  smooth_first(level, b);
   if (next < coarse_.size()) {
     Coarse& coarse = coarse_[next];
     const Grid& coarse_grid = coarse.matrix.grid;
-    level.bands.for_each([&](kernels::RowRange rows, int band) {
-      kernels::residual<Real, Links>(level.matrix, level.x, b, level.y, rows, work(band));
-      if (!level.cycles_plate) return;
-      kernels::subtract_plate<Real>(level.plate->stencils(), grid, level.x, level.matrix.free, level.y, rows,
-                                    work(band));
-    });
+    find_residual(level, b);
     coarse.bands.for_each([&](kernels::RowRange rows, int band) {
       kernels::restrict_sum<Real>(grid, level.y.x, coarse_grid, coarse.b.x, rows, work(band));
       kernels::restrict_sum<Real>(grid, level.y.y, coarse_grid, coarse.b.y, rows, work(band));
@@ -268,13 +306,7 @@ double Multigrid<Real>::cycle(GridLevel<Real, Links>& level, std::size_t next,
       kernels::prolong_add<Real>(coarse_grid, correction.z, grid, free, level.x.z, rows, work(band));
     });
   }
-  const double product = level.bands.sum([&](kernels::RowRange rows, int band) {
-    const double links =
-        kernels::relax<Real, Links>(level.matrix, level.inverse, level.x, b, z, rows, work(band));
-    if (!level.cycles_plate) return links;
-    return links + kernels::relax_plate<Real>(level.plate->stencils(), grid, level.inverse, level.x, b, z,
-                                              rows, work(band));
-  });
+  const double product = smooth_last(level, b, z);
   if (!seams_.empty()) seams_[next].average(z);
   return product;
 }

@@ -6,6 +6,7 @@
 #include "cloth/sheet/seam.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
+#include "cloth/solver/line_smoother.h"
 #include "cloth/solver/node_arrays.h"
 #include "cloth/solver/node_couplings.h"
 
@@ -39,15 +40,16 @@ struct GridLevel {
 
 /// The linear system of an implicit step, A x = b with A as in link_kernels.h, and its preconditioner: one
 /// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The
-/// transfers are split's interpolation and its transpose; coarse links are means of fine ones; block Jacobi
-/// smooths; the coarsest grid is solved directly. The cycle is symmetric, as conjugate gradients need it.
-/// A plate may be part of A, on every level by its own rigidities; the cycle leaves it out on levels where
-/// inertia outweighs it at every node. Bodies may hang on the nodes, and nodes on one another: that is part
-/// of A, but not of the preconditioner.
+/// transfers are split's interpolation and its transpose; coarse links are means of fine ones; the finest
+/// grid is smoothed along its threads (LineSmoother), coarser ones by block Jacobi; the coarsest grid is
+/// solved directly. The cycle is symmetric, as conjugate gradients need it. A plate may be part of A, on
+/// every level by its own rigidities; the cycle leaves it out on levels where inertia outweighs it at every
+/// node. Bodies may hang on the nodes, and nodes on one another: that is part of A, but not of the
+/// preconditioner.
 ///
 /// Where a cloth is sewn the nodes of its seam's pairs move as one, on every level: x has them equal, and b
-/// the mean of what pulls at the two. With P what makes them so (Seam::average) the system is P A P x = b; a
-/// pair is smoothed by the mean of its two diagonal blocks.
+/// the mean of what pulls at the two. With P what makes them so (Seam::average) the system is P A P x = b;
+/// sewn grids are all smoothed by block Jacobi, a pair by the mean of its two diagonal blocks.
 template <class Real>
 class Multigrid {
  public:
@@ -84,6 +86,16 @@ class Multigrid {
   void prepare_level(Fine& level, std::size_t index);
   template <class Fine>
   void coarsen(Fine& fine, Coarse& coarse);
+  /// level.x = one sweep from zero.
+  template <class Links>
+  void smooth_first(GridLevel<Real, Links>& level, kernels::Components<const Real> b);
+  /// z = one sweep from level.x; returns b . z.
+  template <class Links>
+  double smooth_last(GridLevel<Real, Links>& level, kernels::Components<const Real> b,
+                     kernels::Components<Real> z);
+  /// level.y = what level.x leaves of b.
+  template <class Links>
+  void find_residual(GridLevel<Real, Links>& level, kernels::Components<const Real> b);
   template <class Links>
   double cycle(GridLevel<Real, Links>& level, std::size_t next, kernels::Components<const Real> b,
                kernels::Components<Real> z);
@@ -93,6 +105,7 @@ class Multigrid {
   NodeCouplings<Real> couplings_;
   double rank_one_ = 0;                            ///< its stiffness, N/m5
   kernels::Components<const Real> rank_one_by_{};  ///< its vector, m2
+  std::optional<LineSmoother<Real>> lines_;        ///< of the finest level, unless it is sewn
   std::vector<Coarse> coarse_;                     ///< fine to coarse
   std::vector<Seam<Real>> seams_;  ///< of all levels, fine to coarse; none where the cloth is not sewn
   std::optional<CoarseSolver<Real>> coarsest_;
