@@ -139,10 +139,11 @@ Multigrid<Real>::Multigrid(const Grid& finest, bool has_bending, const Plate<Rea
     if (coarse_plate) coarse_plate = coarse_plate->coarser();
     coarse_.emplace_back(grid, false, coarse_plate ? &*coarse_plate : nullptr);
   }
-  if (!sewn) lines_.emplace(finest);
   if (sewn) {
     seams_.emplace_back(finest);
     for (const Coarse& level : coarse_) seams_.emplace_back(level.matrix.grid);
+  } else {
+    lines_.emplace(finest);
   }
   if (!coarse_.empty()) coarsest_.emplace(coarse_.back().matrix.grid, sewn ? &seams_.back() : nullptr);
 }
