@@ -42,11 +42,13 @@ Description read_implicit(Object& object) {
   constexpr Range kTolerance{1e-12, 1};
   constexpr Range kNewtonIterations{1, 100};
   constexpr Range kLinearIterations{1, 10000};
+  constexpr Range kLiveliness{0, 1};
   Description implicit;
   object.integer("substeps", implicit.substeps, kSubsteps);
   object.number("tolerance", implicit.tolerance, kTolerance);
   object.integer("newton_iterations", implicit.newton_iterations, kNewtonIterations);
   object.integer("linear_iterations", implicit.linear_iterations, kLinearIterations);
+  object.number("liveliness", implicit.liveliness, kLiveliness);
   return implicit;
 }
 

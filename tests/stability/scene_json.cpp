@@ -118,7 +118,8 @@ struct IntegratorWriter {
     return {{"substeps", i.substeps},
             {"tolerance", i.tolerance},
             {"newton_iterations", i.newton_iterations},
-            {"linear_iterations", i.linear_iterations}};
+            {"linear_iterations", i.linear_iterations},
+            {"liveliness", i.liveliness}};
   }
   json operator()(const XpbdDescription& i) const {
     if (i.substeps > 0) return {{"substeps", i.substeps}};

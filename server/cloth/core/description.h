@@ -242,6 +242,9 @@ struct ImplicitParameters {
   /// Largest number of iterations of a linear solve, >= 1. Some presets reach 60; with that as the limit
   /// springs of 1e7 N/m are stretched 1.75 times as far as a hard case allows.
   int linear_iterations = 200;
+  /// Share, 0 to 1, of what a step's errors take from the motion or give it that is made good, where nothing
+  /// drives or touches the cloth (EnergyLedger).
+  double liveliness = 1;
   bool operator==(const ImplicitParameters&) const = default;
 };
 /// Backward Euler: first order, damps (T3 in the truths), the sturdiest.

@@ -16,11 +16,8 @@ constexpr double kFar = 0.1, kInterval = 0.1;
 
 template <class Real>
 void EnergyBound<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
-  if (forces.driven) {
-    *this = {};
-  } else if (!most_) {
-    most_ = forces.energy(particles);
-  }
+  if (forces.driven || forces.disturbed) *this = {};
+  if (!forces.driven && !most_) most_ = forces.energy(particles);
 }
 
 template <class Real>

@@ -48,8 +48,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double h = dt / parameters_.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
-  memory_->bound.begin_step(particles, forces);
+  memory_->ledger.begin_step(particles, forces);
   ContactConstraints<Real>& contacts = memory_->contacts;
+  // Scaled velocities would change the momentum of pieces that have come off.
+  bool touched = forces.springs->torn() != nullptr;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
@@ -81,11 +83,14 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     if (forces.seam != nullptr) forces.seam->join(particles);
+    memory_->ledger.count_work(particles, forces, state_->start,
+                               forces.springs->damping_time() > 0 ? &state_->way : nullptr, h);
+    touched = touched || report.nodes_in_contact > 0 || !contacts.empty();
     end_substep(particles, contact, h);
   }
-  const double kept = memory_->bound.end_step(particles, forces, dt);
+  const double scale = memory_->ledger.end_step(particles, forces, dt, touched);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
-  if (second_order_ && kept < 1) scale_motion(particles, kept, memory_->last_velocity);
+  if (second_order_ && scale != 1) scale_motion(particles, scale, memory_->last_velocity);
   report.sound = state_->sound;
   return report;
 }
@@ -97,7 +102,7 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_.emplace(grid, forces.springs->has_bending(), forces.plate, forces.seam != nullptr);
     if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
   }
-  if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid);
+  if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid, parameters_);
   if (memory_->h != h) memory_->second_order.fill(Real(0));  // BDF2's formula is for equal steps
   memory_->h = h;
   const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "cloth/contact/constraints/contact_constraints.h"
-#include "cloth/integrators/energy_bound.h"
+#include "cloth/integrators/energy_ledger.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/motion_scale.h"
 #include "cloth/integrators/softened_springs.h"
@@ -29,7 +29,7 @@ namespace weft {
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
 ///
-/// A cloth that nothing drives gains no energy from what the solves leave undone (EnergyBound).
+/// A cloth that nothing drives neither gains nor loses energy by what the solves leave undone (EnergyLedger).
 ///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
@@ -54,13 +54,17 @@ class Implicit final : public Integrator<Real> {
  private:
   /// What a substep leaves to the next one.
   struct Memory {
-    explicit Memory(const Grid& grid) : second_order(grid), last_move(grid), last_velocity(grid) {}
+    Memory(const Grid& grid, const ImplicitParameters& parameters)
+        : second_order(grid),
+          last_move(grid),
+          last_velocity(grid),
+          ledger(parameters.liveliness, parameters.tolerance) {}
 
     Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
     VectorField<Real> last_move, last_velocity;
     double h = 0;  ///< s, of the last substep
     ContactConstraints<Real> contacts;
-    EnergyBound<Real> bound;
+    EnergyLedger<Real> ledger;
 
     /// The node's next substep is one of backward Euler.
     void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }

@@ -93,8 +93,13 @@ template <class Real>
 double Forces<Real>::energy(const Particles<Real>& particles) const {
   double sum = kinetic_energy(particles) + springs->energy(particles.position);
   if (plate != nullptr) sum += plate->energy(particles.position);
-  for (const auto& effect : *effects) sum += effect->energy(particles);
-  return sum;
+  return sum + effects_energy(particles);
+}
+
+template <class Real>
+double Forces<Real>::effects_energy(const Particles<Real>& particles) const {
+  return std::accumulate(effects->begin(), effects->end(), 0.0,
+                         [&](double sum, const auto& effect) { return sum + effect->energy(particles); });
 }
 
 template <class Real>

@@ -32,6 +32,7 @@ struct Forces {
   const Seam<Real>* seam = nullptr;       ///< of a sewn cloth
   Gas<Real>* gas = nullptr;               ///< if it is shut in it
   bool driven = true;                     ///< something may do work on the cloth in this step
+  bool disturbed = false;                 ///< something may have given it energy since the last step
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {
@@ -63,6 +64,8 @@ struct Forces {
   void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
   /// Of motion, springs, plate, and of the effects that have one, J.
   double energy(const Particles<Real>& particles) const;
+  /// Of the effects that have one, J: of height.
+  double effects_energy(const Particles<Real>& particles) const;
   bool any_slow() const;
   DampingRates max_damping_rates(const Particles<Real>& particles) const;
   /// What the sheet needs to hold all that the effects do, N/m, at most.

@@ -6,6 +6,16 @@ namespace weft::kernels {
 
 // target_clones needs each function written out.
 template <>
+WEFT_MULTIVERSION double spring_energy(const SpringLattice<float>& springs, const Grid& grid,
+                                       Components<const float> position) {
+  return spring_energy_rows::energy<float>(springs, grid, position);
+}
+template <>
+WEFT_MULTIVERSION double spring_energy(const SpringLattice<double>& springs, const Grid& grid,
+                                       Components<const double> position) {
+  return spring_energy_rows::energy<double>(springs, grid, position);
+}
+template <>
 WEFT_MULTIVERSION SpringModelError spring_model_error(const SpringLattice<float>& springs, const Grid& grid,
                                                       Components<const float> position,
                                                       Components<const float> change) {

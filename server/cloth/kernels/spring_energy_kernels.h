@@ -3,6 +3,10 @@
 
 namespace weft::kernels {
 
+/// Of all springs, J, those beyond their limits (limited_kernels.h) and the cut ones as they are.
+template <class Real>
+double spring_energy(const SpringLattice<Real>& springs, const Grid& grid, Components<const Real> position);
+
 /// How far the springs' energy after a change of the positions is from what their linearisation promised, J.
 struct SpringModelError {
   double sum = 0;        ///< energy less promise: above 0, the springs resist more than was reckoned

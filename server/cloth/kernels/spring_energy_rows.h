@@ -3,11 +3,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <type_traits>
 
 #include "cloth/kernels/link_rows.h"
 #include "cloth/kernels/spring_energy_kernels.h"
 
-/// How springs' model errors are added up row by row; for kernels' .cpp files only.
+/// How springs' energies and their models' errors are added up row by row; for kernels' .cpp files only.
 namespace weft::kernels::spring_energy_rows {
 
 template <class Real>
@@ -86,42 +87,107 @@ template <class Real, bool kLimited>
   }
 }
 
-template <class Real, bool kLimited, bool kTorn>
-[[gnu::always_inline]] inline SpringModelError model_error(const SpringLattice<Real>& springs,
-                                                           const Grid& grid, const Fields<Real>& fields) {
-  SpringModelError error;
-  Lanes<Real> lanes;
+/// Calls add(family, limited, share of the stiffness, first end's place, second end's from it) for each
+/// family's springs row by row, and end_row() after each row.
+template <bool kTorn, class Real, class Add, class EndRow>
+[[gnu::always_inline]] inline void for_each_row(const SpringLattice<Real>& springs, const Grid& grid, Add add,
+                                                EndRow end_row) {
   const std::ptrdiff_t stride = grid.stride;
-  const int count = grouped(grid.cols);
   for (int r = 0; r < grid.rows; ++r) {
     const std::ptrdiff_t first = r * stride;
     const bool last = r + 1 == grid.rows;
     const Real share = r == 0 || last ? springs.border_row_share : Real(1);
     const SpringLattice<Real>& own = springs_of_row<kTorn>(springs, r);
-    const auto row = [&](const SpringColumns<Real>& family, Real row_share,
-                         std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
-      add_row<Real, kLimited>(family, springs.excess, row_share, fields, first, other, count, lanes);
-    };
-    const auto bending_row = [&](const SpringColumns<Real>& family, Real row_share,
-                                 std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
-      add_row<Real, false>(family, 0, row_share, fields, first, other, count, lanes);
-    };
-    row(own.along_u, share, 1);
+    add(own.along_u, std::true_type{}, share, first, 1);
     if (springs.has_bending) {
-      bending_row(own.bending_u, share, 2);
-      if (r + 2 < grid.rows) bending_row(own.bending_v, Real(1), 2 * stride);
+      add(own.bending_u, std::false_type{}, share, first, 2);
+      if (r + 2 < grid.rows) add(own.bending_v, std::false_type{}, Real(1), first, 2 * stride);
     }
     if (!last) {
-      row(own.along_v, Real(1), stride);
+      add(own.along_v, std::true_type{}, Real(1), first, stride);
       if (springs.has_shear) {
-        row(own.falling, Real(1), stride + 1);
-        row(own.rising, Real(1), stride - 1);
+        add(own.falling, std::true_type{}, Real(1), first, stride + 1);
+        add(own.rising, std::true_type{}, Real(1), first, stride - 1);
       }
     }
-    lanes.flush(error);
+    end_row();
   }
+}
+
+template <class Real, bool kLimited, bool kTorn>
+[[gnu::always_inline]] inline SpringModelError model_error(const SpringLattice<Real>& springs,
+                                                           const Grid& grid, const Fields<Real>& fields) {
+  SpringModelError error;
+  Lanes<Real> lanes;
+  const int count = grouped(grid.cols);
+  for_each_row<kTorn>(
+      springs, grid,
+      [&](const SpringColumns<Real>& family, auto limited, Real share, std::ptrdiff_t first,
+          std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
+        constexpr bool kLimits = kLimited && decltype(limited)::value;
+        add_row<Real, kLimits>(family, springs.excess, share, fields, first, other, count, lanes);
+      },
+      [&]() WEFT_INLINE_LAMBDA { lanes.flush(error); });
   lanes.find_largest(error);
   return error;
+}
+
+/// Springs of one family that start in one row, at `position`; `excess` is 0 of those without limits.
+template <class Real>
+struct EnergyRow {
+  const Real* __restrict stiffness;
+  const Real* __restrict x;
+  const Real* __restrict y;
+  const Real* __restrict z;
+  std::ptrdiff_t other;
+  Real rest_length, limit_length, excess;
+
+  /// Of the spring that starts in this column.
+  [[gnu::always_inline]] Real twice_energy(int c) const {
+    const Real dx = x[c] - x[c + other], dy = y[c] - y[c + other], dz = z[c] - z[c + other];
+    const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const Real stretch = length - rest_length, past = length - limit_length;
+    const Real over = (past + std::abs(past)) / 2;
+    return stiffness[c] * (stretch * stretch + excess * over * over);
+  }
+};
+
+/// Added up in lanes, so that the order of additions is the same with every instruction set.
+template <class Real>
+[[gnu::always_inline]] inline double energy(const SpringLattice<Real>& springs, const Grid& grid,
+                                            Components<const Real> position) {
+  constexpr int kLanes = kLinkGroup;
+  alignas(64) Real row[kLanes]{};
+  alignas(64) double lanes[kLanes]{};
+  const int cols = grid.cols;
+  for_each_row<true>(
+      springs, grid,
+      [&](const SpringColumns<Real>& family, auto limited, Real share, std::ptrdiff_t first,
+          std::ptrdiff_t other) WEFT_INLINE_LAMBDA {
+        const EnergyRow<Real> own{family.stiffness,
+                                  position.x + first,
+                                  position.y + first,
+                                  position.z + first,
+                                  other,
+                                  family.rest_length,
+                                  family.limit_length,
+                                  decltype(limited)::value ? springs.excess : Real(0)};
+        int c = 0;
+        for (; c + kLanes <= cols; c += kLanes) {
+          for (int lane = 0; lane < kLanes; ++lane) row[lane] += share / 2 * own.twice_energy(c + lane);
+        }
+        // Not in a whole group: beyond the last row's end nothing may be read.
+        for (; c < cols; ++c) row[c % kLanes] += share / 2 * own.twice_energy(c);
+      },
+      [&]() WEFT_INLINE_LAMBDA {
+        for (int lane = 0; lane < kLanes; ++lane) {
+          lanes[lane] += static_cast<double>(row[lane]);
+          row[lane] = Real(0);
+        }
+      });
+  double sum = 0;
+  for (const double lane : lanes) sum += lane;
+  return sum;
 }
 
 }  // namespace weft::kernels::spring_energy_rows

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cloth/kernels/components.h"
+#include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/node_vector.h"
 
 namespace weft {
@@ -22,18 +23,20 @@ void for_each_free(const Particles<Real>& particles, Visit visit) {
   }
 }
 
-template <class Real>
-bool is_held(const Particles<Real>& particles) {
+/// Calls visit(row, column) for every other one.
+template <class Real, class Visit>
+void for_each_held(const Particles<Real>& particles, Visit visit) {
   const Grid& grid = particles.grid();
   for (int r = 0; r < grid.rows; ++r) {
+    const Real* inverse_mass = particles.inverse_mass.row(r);
     for (int c = 0; c < grid.cols; ++c) {
-      if (particles.inverse_mass.at(r, c) == Real(0)) return true;
+      if (inverse_mass[c] == Real(0)) visit(r, c);
     }
   }
-  return false;
 }
 
 struct RigidMotion {
+  bool still = true;       ///< all of it is 0
   Vec3 centre{0, 0, 0};    ///< of mass, m
   Vec3 velocity{0, 0, 0};  ///< of the centre, m/s
   Vec3 spin{0, 0, 0};      ///< rad/s
@@ -45,6 +48,7 @@ template <class Real>
 RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<const Real> velocity) {
   RigidMotion motion;
   if (is_held(particles)) return motion;
+  motion.still = false;
   double mass = 0;
   for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
     mass += m;
@@ -65,10 +69,38 @@ RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<c
   return motion;
 }
 
+/// Of the nodes' motion, J.
+template <class Real>
+double energy_beside(const RigidMotion& rigid, const Particles<Real>& particles) {
+  const auto velocity = kernels::components(particles.velocity);
+  const Grid& grid = particles.grid();
+  double energy = 0;
+  if (rigid.still) {
+    energy = kernels::weighted_square<Real>(particles.mass.row(0), velocity, grid) / 2;
+    for_each_held(particles, [&](int r, int c) {
+      energy -= double(particles.mass.at(r, c)) * particles.velocity_at(r, c).squaredNorm() / 2;
+    });
+    return energy;
+  }
+  for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
+    energy += m * (at<Real>(velocity, i) - rigid.at(position)).squaredNorm() / 2;
+  });
+  return energy;
+}
+
 template <class Real>
 void scale_about(const RigidMotion& rigid, const Particles<Real>& particles, double factor,
                  VectorField<Real>& velocity) {
   const auto v = kernels::components(velocity);
+  if (rigid.still) {
+    const Real* inverse_mass = particles.inverse_mass.row(0);
+    for (Real* component : {v.x, v.y, v.z}) {
+      for (std::size_t i = 0; i < particles.grid().size(); ++i) {
+        component[i] *= inverse_mass[i] > Real(0) ? static_cast<Real>(factor) : Real(1);
+      }
+    }
+    return;
+  }
   for_each_free(particles, [&](std::size_t i, double, const Vec3& position) {
     const Vec3 kept = rigid.at(position);
     set(v, i, Vec3(kept + factor * (at<Real>(v, i) - kept)));
@@ -78,18 +110,53 @@ void scale_about(const RigidMotion& rigid, const Particles<Real>& particles, dou
 }  // namespace
 
 template <class Real>
-double take_from_motion(Particles<Real>& particles, double energy) {
-  if (!(energy > 0)) return 1;
-  const auto velocity = kernels::components(std::as_const(particles.velocity));
-  const RigidMotion rigid = rigid_motion(particles, velocity);
-  double motion = 0;  // J
-  for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
-    motion += m * (at<Real>(velocity, i) - rigid.at(position)).squaredNorm() / 2;
+bool is_held(const Particles<Real>& particles) {
+  bool held = false;
+  for_each_held(particles, [&](int, int) { held = true; });
+  return held;
+}
+
+template <class Real>
+MotionEnergy motion_energy(const Particles<Real>& particles) {
+  const auto velocity = kernels::components(particles.velocity);
+  RigidMotion rigid = rigid_motion(particles, velocity);
+  const double inner = energy_beside(rigid, particles);
+  if (rigid.still) return {inner, inner};
+  rigid.spin.setZero();
+  return {energy_beside(rigid, particles), inner};
+}
+
+template <class Real>
+double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
+                          const VectorField<Real>& way) {
+  const auto forces = kernels::components(force), ways = kernels::components(way);
+  if (is_held(particles)) return kernels::dot<Real>(forces, ways, particles.grid());
+  double work = 0, mass = 0;
+  Vec3 sum(0, 0, 0), moved(0, 0, 0);
+  for_each_free(particles, [&](std::size_t i, double m, const Vec3&) {
+    const Vec3 f = at<Real>(forces, i), s = at<Real>(ways, i);
+    work += f.dot(s);
+    sum += f;
+    moved += m * s;
+    mass += m;
   });
+  return work - sum.dot(moved) / mass;
+}
+
+template <class Real>
+double add_to_motion(Particles<Real>& particles, double energy) {
+  if (!(std::abs(energy) > 0)) return 1;
+  const RigidMotion rigid = rigid_motion(particles, kernels::components(std::as_const(particles.velocity)));
+  const double motion = energy_beside(rigid, particles);
   if (motion == 0) return 1;
-  const double factor = std::sqrt(std::max(0.0, 1 - energy / motion));
+  const double factor = std::sqrt(std::max(0.0, 1 + energy / motion));
   scale_about(rigid, particles, factor, particles.velocity);
   return factor;
+}
+
+template <class Real>
+double take_from_motion(Particles<Real>& particles, double energy) {
+  return energy > 0 ? add_to_motion(particles, -energy) : 1;
 }
 
 template <class Real>
@@ -98,6 +165,16 @@ void scale_motion(const Particles<Real>& particles, double factor, VectorField<R
               velocity);
 }
 
+template bool is_held(const Particles<float>&);
+template bool is_held(const Particles<double>&);
+template MotionEnergy motion_energy(const Particles<float>&);
+template MotionEnergy motion_energy(const Particles<double>&);
+template double work_beside_centre(const Particles<float>&, const VectorField<float>&,
+                                   const VectorField<float>&);
+template double work_beside_centre(const Particles<double>&, const VectorField<double>&,
+                                   const VectorField<double>&);
+template double add_to_motion(Particles<float>&, double);
+template double add_to_motion(Particles<double>&, double);
 template double take_from_motion(Particles<float>&, double);
 template double take_from_motion(Particles<double>&, double);
 template void scale_motion(const Particles<float>&, double, VectorField<float>&);

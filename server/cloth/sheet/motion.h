@@ -3,9 +3,31 @@
 
 namespace weft {
 
-/// Takes so much energy, J, from the motion of the free nodes, or what there is of it: all are slowed down in
-/// proportion. Where no node is held it is their motion beside that of a rigid body with their momentum and
-/// angular momentum, so that both stay. Returns what is left of each velocity, relative, from 0 to 1.
+/// A node is.
+template <class Real>
+bool is_held(const Particles<Real>& particles);
+
+/// Kinetic energy of the free nodes, J, the same twice where a node is held.
+struct MotionEnergy {
+  double beside_centre;  ///< without that of the centre of mass
+  double inner;          ///< without that of a rigid body with their momentum and angular momentum
+};
+template <class Real>
+MotionEnergy motion_energy(const Particles<Real>& particles);
+
+/// Work of `force`, N, on free nodes that have gone `way`, m, in J; where no node is held without the work of
+/// the forces' sum on the centre of mass.
+template <class Real>
+double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
+                          const VectorField<Real>& way);
+
+/// Gives the motion of the free nodes so much energy, J, or takes it where that is below 0, as far as there
+/// is any: all velocities are scaled alike. Where no node is held it is their inner motion, so that momentum
+/// and angular momentum stay. Returns the scale, from 0; 1 where nothing moves so.
+template <class Real>
+double add_to_motion(Particles<Real>& particles, double energy);
+
+/// The same for energy that is taken, but nothing is given.
 template <class Real>
 double take_from_motion(Particles<Real>& particles, double energy);
 

@@ -286,13 +286,9 @@ double Springs<Real>::node_stiffness() const {
 
 template <class Real>
 double Springs<Real>::energy(const VectorField<Real>& position) const {
-  double sum = 0;
-  for (const SpringFamily& family : families_) {
-    for_each_spring(*this, family, position, [&](const Vec3& d, double stiffness) {
-      sum += spring_energy(d, family.rest_length, stiffness, family.limit);
-    });
-  }
-  return sum;
+  if (families_.empty()) return 0;
+  const Grid& grid = position.grid();
+  return kernels::spring_energy(lattice(grid), grid, kernels::components(position));
 }
 
 template <class Real>

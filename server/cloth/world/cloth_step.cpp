@@ -119,7 +119,8 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   if (pins_.moving()) all.pins = &pins_;
   all.layered = layers_ != nullptr;
   if (all.layered && !layers_->empty()) all.layers = layers_;
-  all.driven = std::exchange(disturbed_, false) || driven(all, dt);
+  all.driven = driven(all, dt);
+  all.disturbed = std::exchange(disturbed_, false);
   return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 

@@ -272,6 +272,7 @@ TEST(Reader, ImplicitFields) {
   EXPECT_EQ(bdf2.tolerance, 0.001);
   EXPECT_EQ(bdf2.newton_iterations, 2);
   EXPECT_EQ(bdf2.linear_iterations, 200);
+  EXPECT_EQ(bdf2.liveliness, 0.5);
 }
 
 TEST(Reader, ExtremesAreAllowed) {

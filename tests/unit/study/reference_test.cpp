@@ -17,6 +17,7 @@ double error_of(int substeps, const Reference& reference) {
   implicit.tolerance = 1e-6;
   implicit.newton_iterations = 4;
   implicit.linear_iterations = 500;
+  implicit.liveliness = 0;
   SimulationDescription description = swing();
   description.integrator = implicit;
   return errors_of(simulate<double>(description, {4, 20}, kGoOn), reference.answer).rms_position;

@@ -232,10 +232,11 @@ TEST_P(SelfContact, ClappingBringsInNoEnergy) {
   Simulation<float> simulation(clapping(5, GetParam().description));
   // Until the halves meet it has the same energy as without contact, to the bit, with each method's own
   // rises.
-  for (int step = 0; step < 18; ++step) simulation.step();
-  const auto [risen, lost] = balance(simulation, 102);
-  // XPBD's own bound: it brings in more before, without contact.
   const bool xpbd = std::holds_alternative<XpbdDescription>(GetParam().description);
+  const int meet = xpbd ? 18 : 12;  // implicit steps lose nothing on the way, so that they meet earlier
+  for (int step = 0; step < meet; ++step) simulation.step();
+  const auto [risen, lost] = balance(simulation, 120 - meet);
+  // XPBD's own bound: it brings in more before, without contact.
   EXPECT_LT(risen, (xpbd ? 0.05 : 0.002) * lost);
   EXPECT_GT(lost, 0.03);  // J, of the 0.041 that the halves have when they meet
   EXPECT_EQ(intersections(simulation), 0);

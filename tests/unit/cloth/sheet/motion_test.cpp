@@ -72,6 +72,43 @@ TEST(TakeFromMotion, WhatARigidBodyHasStays) {
   EXPECT_NEAR(kinetic_energy(sheet), energy, 1e-12 * energy);
 }
 
+// Given and taken alike: of the inner motion alone, which is what the whole has beside the rigid one.
+TEST(AddToMotion, GivesToTheInnerMotionAndLeavesBothMomenta) {
+  Particles<double> sheet = moving_sheet();
+  const Vec3 momentum = linear_momentum(sheet), turning = angular_momentum(sheet);
+  const double energy = kinetic_energy(sheet), inner = motion_energy(sheet).inner;
+  EXPECT_NEAR(inner, energy - rigid_energy(sheet), 1e-12 * energy);
+  EXPECT_NEAR(add_to_motion(sheet, 0.21 * inner), 1.1, 1e-12);
+  EXPECT_NEAR(kinetic_energy(sheet), energy + 0.21 * inner, 1e-12 * energy);
+  EXPECT_LT((linear_momentum(sheet) - momentum).norm(), 1e-12 * momentum.norm());
+  EXPECT_LT((angular_momentum(sheet) - turning).norm(), 1e-12 * turning.norm());
+  EXPECT_EQ(add_to_motion(sheet, std::nan("")), 1) << "no energy at all";
+}
+
+// Koenig: the whole is that of the centre and that about it; what forces do on the centre is their sum's.
+TEST(MotionEnergy, BesideTheCentreIsTheWholeLessTheCentres) {
+  Particles<double> sheet = moving_sheet();
+  double mass = 0, work = 0;
+  Vec3 force(0, 0, 0), moved(0, 0, 0);
+  test::each_node(sheet.grid(), [&](int r, int c) {
+    const double m = sheet.mass.at(r, c);
+    mass += m;
+    work += sheet.position_at(r, c).dot(sheet.velocity_at(r, c));
+    force += sheet.position_at(r, c);
+    moved += m * sheet.velocity_at(r, c);
+  });
+  const double energy = kinetic_energy(sheet);
+  EXPECT_NEAR(motion_energy(sheet).beside_centre, energy - linear_momentum(sheet).squaredNorm() / (2 * mass),
+              1e-12 * energy);
+  // Any two fields: here the positions stand for forces, the velocities for ways.
+  EXPECT_NEAR(work_beside_centre(sheet, sheet.position, sheet.velocity), work - force.dot(moved) / mass,
+              1e-12);
+  sheet.inverse_mass.at(2, 2) = 0;
+  const double held = sheet.mass.at(2, 2) * sheet.velocity_at(2, 2).squaredNorm() / 2;
+  EXPECT_NEAR(motion_energy(sheet).beside_centre, energy - held, 1e-12 * energy);
+  EXPECT_NEAR(work_beside_centre(sheet, sheet.position, sheet.velocity), work, 1e-12);
+}
+
 // What is remembered of a motion is scaled as the motion is.
 TEST(ScaleMotion, AsTheMotionFromWhichEnergyWasTaken) {
   for (const bool held : {false, true}) {

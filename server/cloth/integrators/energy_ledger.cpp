@@ -1,0 +1,86 @@
+#include "cloth/integrators/energy_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/kernels/implicit_kernels.h"
+#include "cloth/sheet/motion.h"
+
+namespace weft {
+namespace {
+
+/// The largest part of the motion's energy that a step gives back or takes.
+constexpr double kMostChange = 0.5;
+/// The largest part of the energy that the motion had of late that stays to be given or taken.
+constexpr double kMostOwed = 0.4;
+/// Seconds in which what the motion had of late falls to 1/e.
+constexpr double kOfLate = 1;
+
+}  // namespace
+
+template <class Real>
+double EnergyLedger<Real>::stored(const Particles<Real>& particles, const Forces<Real>& forces) {
+  const double springs = forces.springs->energy(particles.position);
+  return forces.plate == nullptr ? springs : springs + forces.plate->energy(particles.position);
+}
+
+template <class Real>
+double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces<Real>& forces) {
+  return is_held(particles) ? forces.effects_energy(particles) : 0;
+}
+
+template <class Real>
+double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double motion, double dt) const {
+  double mass = 0;
+  for (const Real node : particles.mass.values()) mass += double(node);
+  const double slow = tolerance_ * standard_gravity().norm() * dt;
+  return motion / (motion + mass * slow * slow / 2);
+}
+
+template <class Real>
+void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
+  work_ = 0;
+  if (forces.driven || forces.disturbed) account_.reset();
+  if (forces.driven || account_) return;
+  const double now = motion_energy(particles).beside_centre + stored(particles, forces);
+  account_ = {.most = now + height(particles, forces), .due = now};
+}
+
+template <class Real>
+void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forces<Real>& forces,
+                                    const VectorField<Real>& start, const VectorField<Real>* dampers,
+                                    double h) {
+  if (!account_) return;
+  const Grid& grid = particles.grid();
+  if (force_.grid() != grid) force_ = way_ = VectorField<Real>(grid);
+  forces.sum_effects(particles, force_);
+  if (dampers != nullptr) {
+    forces.springs->add_damping(particles.position, kernels::components(*dampers), h, force_);
+  }
+  kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(start),
+                                   Real(1), kernels::components(way_), grid.size());
+  work_ += work_beside_centre(particles, force_, way_);
+}
+
+template <class Real>
+double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt,
+                                    bool touched) {
+  if (!account_) return 1;
+  Account& account = *account_;
+  const MotionEnergy motion = motion_energy(particles);
+  const double now = motion.beside_centre + stored(particles, forces);
+  account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
+  account.due = touched ? now : account.due + work_;
+  const double share = liveliness_ * (account.due > now ? kept_share(particles, account.motion, dt) : 1);
+  account.due = now + share * (account.due - now);
+  const double most = kMostChange * motion.inner, owed = kMostOwed * account.motion;
+  const double change =
+      std::min(std::clamp(account.due - now, -most, most), account.most - now - height(particles, forces));
+  account.due = now + change + std::clamp(account.due - now - change, -owed, owed);
+  return add_to_motion(particles, change);
+}
+
+template class EnergyLedger<float>;
+template class EnergyLedger<double>;
+
+}  // namespace weft

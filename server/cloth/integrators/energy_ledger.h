@@ -1,0 +1,62 @@
+#pragma once
+#include <optional>
+
+#include "cloth/integrators/integrator.h"
+
+namespace weft {
+
+/// Keeps the books of a cloth that nothing drives (Forces::driven) and nothing touches: what its motion,
+/// springs and plate hold together changes by the work of the effects alone, but solves that are left
+/// unfinished, the formula and rounding take energy from it, or give some. What they took is given back to
+/// the motion and what they gave is taken from it, all of it scaled alike, so that momenta stay where nothing
+/// is held (after Dinev et al., FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects,
+/// 2018, who project each step; and Su, Sheth, Fedkiw, Energy Conservation for the Simulation of Deformable
+/// Bodies, 2013). Where a motion turns there is little to scale: what cannot be given then is owed.
+///
+/// A motion as slow as what a solve leaves undone in a step gets nothing back, or errors alone would keep it
+/// going. Nor does a cloth that touches something, where contact takes energy that no work here stands for.
+/// It never has more than it had when it was last driven, though, contact or not.
+///
+/// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
+/// own error, which is none of the inner motion's.
+template <class Real>
+class EnergyLedger {
+ public:
+  /// `liveliness`, 0 to 1, is the share of what the motion lost or gained that is given back or taken; with 0
+  /// it only never has more than it had. `tolerance` is what a solve leaves of a step's forces, relative.
+  EnergyLedger(double liveliness, double tolerance) : liveliness_(liveliness), tolerance_(tolerance) {}
+
+  /// As a step begins.
+  void begin_step(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// After a substep: the nodes have come from `start`, their dampers by `dampers`, m (null where the springs
+  /// are undamped), in h seconds.
+  void count_work(const Particles<Real>& particles, const Forces<Real>& forces,
+                  const VectorField<Real>& start, const VectorField<Real>* dampers, double h);
+  /// After a step of `dt` seconds, in which something may have touched the cloth. Returns by what each
+  /// velocity was multiplied: what else the integrator remembers of the motion it has to scale likewise
+  /// (scale_motion).
+  double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched);
+
+ private:
+  struct Account {
+    double most;        ///< J, that the cloth had when it was last driven, with height where it is held
+    double due;         ///< J, that it should have now, without height
+    double motion = 0;  ///< the inner motion's largest energy of late, J
+  };
+  /// Of springs and plate, J.
+  static double stored(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// Of the effects, J; none beside the centre of mass, as gravity is the only one that has any.
+  static double height(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// Of what a motion of this energy loses in a step of `dt` seconds, what is given back.
+  double kept_share(const Particles<Real>& particles, double motion, double dt) const;
+
+  double liveliness_, tolerance_;
+  std::optional<Account> account_;  ///< nothing while the cloth is driven
+  double work_ = 0;                 ///< of the effects in this step, J
+  VectorField<Real> force_, way_;   ///< work space
+};
+
+extern template class EnergyLedger<float>;
+extern template class EnergyLedger<double>;
+
+}  // namespace weft
