@@ -16,8 +16,9 @@ constexpr double kFar = 0.1, kInterval = 0.1;
 
 template <class Real>
 void EnergyBound<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
-  if (forces.driven || forces.disturbed) *this = {};
-  if (!forces.driven && !most_) most_ = forces.energy(particles);
+  const bool driven = forces.drive != Drive::nothing;
+  if (driven || forces.disturbed) *this = {};
+  if (!driven && !most_) most_ = forces.energy(particles);
 }
 
 template <class Real>

@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// Holds a cloth that nothing drives (Forces::driven) to the energy that it has when that begins: motion,
+/// Holds a cloth that nothing drives (Forces::drive) to the energy that it has when that begins: motion,
 /// springs, plate and height together. Nothing there gives it any, but the errors of steps do: what solves
 /// leave undone, and rounding, do work of either sign. What is beyond the bound is taken from the motion
 /// (take_from_motion), so that momenta stay where nothing is held.

@@ -15,6 +15,8 @@ constexpr double kMostChange = 0.5;
 constexpr double kMostOwed = 0.4;
 /// Seconds in which what the motion had of late falls to 1/e.
 constexpr double kOfLate = 1;
+/// Of what the motion loses in wind.
+constexpr double kKeptInWind = 0.5;
 
 }  // namespace
 
@@ -40,10 +42,10 @@ double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double m
 template <class Real>
 void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
   work_ = 0;
-  if (forces.driven || forces.disturbed) account_.reset();
-  if (forces.driven || account_) return;
+  if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
+  if (forces.drive == Drive::other || account_) return;
   const double now = motion_energy(particles).beside_centre + stored(particles, forces);
-  account_ = {.most = now + height(particles, forces), .due = now};
+  account_ = {.drive = forces.drive, .most = now + height(particles, forces), .due = now};
 }
 
 template <class Real>
@@ -71,11 +73,12 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const double now = motion.beside_centre + stored(particles, forces);
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
   account.due = touched ? now : account.due + work_;
-  const double share = liveliness_ * (account.due > now ? kept_share(particles, account.motion, dt) : 1);
-  account.due = now + share * (account.due - now);
+  const bool wind = account.drive == Drive::wind, lost = account.due > now;
+  const double kept = lost ? kept_share(particles, account.motion, dt) * (wind ? kKeptInWind : 1) : 1;
+  account.due = now + liveliness_ * kept * (account.due - now);
   const double most = kMostChange * motion.inner, owed = kMostOwed * account.motion;
-  const double change =
-      std::min(std::clamp(account.due - now, -most, most), account.most - now - height(particles, forces));
+  double change = std::clamp(account.due - now, -most, most);
+  if (!wind) change = std::min(change, account.most - now - height(particles, forces));
   account.due = now + change + std::clamp(account.due - now - change, -owed, owed);
   return add_to_motion(particles, change);
 }

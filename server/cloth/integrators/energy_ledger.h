@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Keeps the books of a cloth that nothing drives (Forces::driven) and nothing touches: what its motion,
-/// springs and plate hold together changes by the work of the effects alone, but solves that are left
+/// Keeps the books of a cloth that nothing but wind drives (Forces::drive) and nothing touches: what its
+/// motion, springs and plate hold together changes by the work of the effects alone, but solves that are left
 /// unfinished, the formula and rounding take energy from it, or give some. What they took is given back to
 /// the motion and what they gave is taken from it, all of it scaled alike, so that momenta stay where nothing
 /// is held (after Dinev et al., FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects,
@@ -15,7 +15,9 @@ namespace weft {
 ///
 /// A motion as slow as what a solve leaves undone in a step gets nothing back, or errors alone would keep it
 /// going. Nor does a cloth that touches something, where contact takes energy that no work here stands for.
-/// It never has more than it had when it was last driven, though, contact or not.
+/// Where not even wind drives it, it never has more than it had when it was last driven, contact or not. In
+/// wind half of what it loses is given back: folds lose most of it, and what they lose in earnest the drag
+/// takes, so that all of it would overdrive the flapping.
 ///
 /// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
 /// own error, which is none of the inner motion's.
@@ -39,6 +41,7 @@ class EnergyLedger {
 
  private:
   struct Account {
+    Drive drive;        ///< wind or nothing
     double most;        ///< J, that the cloth had when it was last driven, with height where it is held
     double due;         ///< J, that it should have now, without height
     double motion = 0;  ///< the inner motion's largest energy of late, J
@@ -51,7 +54,7 @@ class EnergyLedger {
   double kept_share(const Particles<Real>& particles, double motion, double dt) const;
 
   double liveliness_, tolerance_;
-  std::optional<Account> account_;  ///< nothing while the cloth is driven
+  std::optional<Account> account_;  ///< nothing while something else drives the cloth
   double work_ = 0;                 ///< of the effects in this step, J
   VectorField<Real> force_, way_;   ///< work space
 };

@@ -11,13 +11,6 @@ namespace weft {
 namespace {
 
 template <class Real>
-void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
-  std::copy_n(from.x, count, to.x);
-  std::copy_n(from.y, count, to.y);
-  std::copy_n(from.z, count, to.z);
-}
-
-template <class Real>
 bool needs_blocks(const Forces<Real>& forces) {
   return std::any_of(forces.effects->begin(), forces.effects->end(),
                      [](const auto& effect) { return effect->needs_blocks(); });
@@ -128,7 +121,11 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   if (forces.gas == nullptr) state_->system.set_rank_one(0, {});
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
-  for (std::size_t i = 0; i < grid.size(); ++i) free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
+  const kernels::Components<Real> correction = memory_->correction.vector();
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
+    for (Real* component : {correction.x, correction.y, correction.z}) component[i] *= free[i];
+  }
 }
 
 template <class Real>

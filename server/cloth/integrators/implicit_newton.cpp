@@ -59,11 +59,14 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
   NewtonReport report;
   const bool heap = forces.layered && !memory_->contacts.empty();
   int heap_rounds = 0;
+  const kernels::Components<Real> recycled = memory_->correction.vector();
+  const kernels::Components<Real>* correction = &recycled;
   for (int left = parameters_.newton_iterations; left > -kSpareSearches; --left) {
     check_interrupt(kWorkOfNewton * static_cast<double>(count));
     assemble(particles, forces);
     const LinearSolveReport solved =
-        s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations);
+        s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations, correction);
+    correction = nullptr;
     s.target = {.least = solved.target};
     const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
     s.motion.found(decrease);

@@ -19,6 +19,13 @@ struct DampingRates {
   double sum() const { return slow + other; }
 };
 
+/// What may do work on a cloth, besides gravity and what takes energy only.
+enum class Drive {
+  nothing,
+  wind,  ///< an effect that feels it
+  other  ///< hands, pins, bodies, gas, other cloth
+};
+
 /// Everything that pushes one cloth, at one level.
 template <class Real>
 struct Forces {
@@ -31,7 +38,7 @@ struct Forces {
   bool layered = false;                   ///< some may, in the scene
   const Seam<Real>* seam = nullptr;       ///< of a sewn cloth
   Gas<Real>* gas = nullptr;               ///< if it is shut in it
-  bool driven = true;                     ///< something may do work on the cloth in this step
+  Drive drive = Drive::other;             ///< what may do work on the cloth in this step
   bool disturbed = false;                 ///< something may have given it energy since the last step
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.

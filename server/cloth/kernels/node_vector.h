@@ -28,6 +28,14 @@ void add(const kernels::Components<Real>& field, std::size_t node, const Vec3& v
   field.z[node] += static_cast<Real>(value.z());
 }
 
+/// to[node] = from[node] for the first `count` nodes.
+template <class Real>
+void copy(kernels::Components<const Real> from, kernels::Components<Real> to, std::size_t count) {
+  std::copy_n(from.x, count, to.x);
+  std::copy_n(from.y, count, to.y);
+  std::copy_n(from.z, count, to.z);
+}
+
 /// field[node] = 0 for the first `count` nodes.
 template <class Real>
 void clear(const kernels::Components<Real>& field, std::size_t count) {

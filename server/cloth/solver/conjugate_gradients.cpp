@@ -6,6 +6,8 @@
 
 #include "cloth/core/interrupt.h"
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/kernels/node_kernels.h"
+#include "cloth/kernels/node_vector.h"
 
 namespace weft {
 namespace {
@@ -33,7 +35,8 @@ double ErrorEstimate::squared() const {
 template <class Real>
 LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kernels::Components<const Real> b,
                                                   kernels::Components<Real> x, const SolveTarget& target,
-                                                  int max_iterations) {
+                                                  int max_iterations,
+                                                  const kernels::Components<Real>* correction) {
   const Grid& grid = system.grid();
   kernels::Components<Real> p = vectors_.vector(0), q = vectors_.vector(3), r = vectors_.vector(6);
   LinearSolveReport report;
@@ -42,9 +45,23 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   const double along = size > 0 ? kernels::dot<Real>(b, x, grid) : 0.0;
   const double scale = size > 0 ? along / size : 0.0;
   report.decrease = scale * along / 2;
+  if (correction != nullptr) {
+    // The part of it that is A-orthogonal to the guess: then each has its own best multiple.
+    const double shared = size > 0 ? kernels::dot<Real>(*correction, q, grid) / size : 0.0;
+    copy<Real>(*correction, p, grid.size());
+    kernels::add_scaled(p, x, static_cast<Real>(-shared), grid.size());
+  }
   bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
     kernels::scale_guess<Real>(x + first, b + first, q + first, r + first, static_cast<Real>(scale), count);
   });
+  if (correction != nullptr) {
+    copy<Real>(x, *correction, grid.size());
+    const double curvature = system.multiply(p, q), found = kernels::dot<Real>(r, p, grid);
+    if (curvature > 0) {
+      kernels::advance_along<Real>(x, p, r, q, static_cast<Real>(found / curvature), grid.size());
+      report.decrease += found * found / curvature / 2;
+    }
+  }
   double rz = system.precondition(r, p);
   report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
   ErrorEstimate error;
@@ -72,6 +89,9 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
   }
   report.converged = report.converged || rz == 0;
   report.finite = std::isfinite(rz);
+  if (correction != nullptr) {
+    kernels::scaled_difference<Real>(x, *correction, Real(1), *correction, grid.size());
+  }
   return report;
 }
 

@@ -50,8 +50,13 @@ class ConjugateGradients {
   /// iteration would. Wherever it stops, x . A x / 2 - b . x is not above 0, its value for no move at all: an
   /// implicit step so left unfinished loses energy and gains none. `b` and `x` lie in arrays with margins and
   /// are 0 at fixed nodes.
+  ///
+  /// `correction`, if any, is such an array too: what an earlier solve of a system much like this one found
+  /// beside its guess. This one begins with the best of the guess and the correction together, and leaves its
+  /// own there.
   LinearSolveReport solve(Multigrid<Real>& system, kernels::Components<const Real> b,
-                          kernels::Components<Real> x, const SolveTarget& target, int max_iterations);
+                          kernels::Components<Real> x, const SolveTarget& target, int max_iterations,
+                          const kernels::Components<Real>* correction = nullptr);
 
  private:
   Bands bands_;

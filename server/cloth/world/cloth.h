@@ -181,7 +181,7 @@ class Cloth {
   AdvanceReport attempt(const Air& air, double time, double dt);
   /// Whether anything may do work on it in a step of dt seconds: air or a hand, pins or solids that move,
   /// gas, other cloths.
-  bool driven(const Forces<Real>& forces, double dt) const;
+  Drive drive(const Forces<Real>& forces, double dt) const;
   /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
   const VectorField<float>* node_air(const Air& air, double time, double dt);
   /// Nothing remembers a step that was taken back.

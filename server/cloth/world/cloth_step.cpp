@@ -119,21 +119,26 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   if (pins_.moving()) all.pins = &pins_;
   all.layered = layers_ != nullptr;
   if (all.layered && !layers_->empty()) all.layers = layers_;
-  all.driven = driven(all, dt);
+  all.drive = drive(all, dt);
   all.disturbed = std::exchange(disturbed_, false);
   return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 
 template <class Real>
-bool Cloth<Real>::driven(const Forces<Real>& forces, double dt) const {
+Drive Cloth<Real>::drive(const Forces<Real>& forces, double dt) const {
   const double time = forces.context.time;
-  return forces.gas != nullptr || forces.layers != nullptr ||
-         (forces.pins != nullptr && way_of_pins(time, time + dt) > 0) ||
-         std::any_of(effects_.begin(), effects_.end(),
-                     [&](const auto& effect) { return effect->drives(forces.context); }) ||
-         std::any_of(solids_.begin(), solids_.end(), [](const Solid& solid) {
-           return solid.yields() || !solid.velocity.isZero(0) || !solid.turn.isZero(0);
-         });
+  const auto any_effect = [&](bool in_wind) {
+    return std::any_of(effects_.begin(), effects_.end(), [&](const auto& effect) {
+      return effect->feels_wind() == in_wind && effect->drives(forces.context);
+    });
+  };
+  if (forces.gas != nullptr || forces.layers != nullptr ||
+      (forces.pins != nullptr && way_of_pins(time, time + dt) > 0) || any_effect(false) ||
+      std::any_of(solids_.begin(), solids_.end(), [](const Solid& solid) {
+        return solid.yields() || !solid.velocity.isZero(0) || !solid.turn.isZero(0);
+      }))
+    return Drive::other;
+  return any_effect(true) ? Drive::wind : Drive::nothing;
 }
 
 template <class Real>
@@ -227,7 +232,7 @@ template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Ai
 template Forces<float> Cloth<float>::forces(const EffectContext&);
 template AdvanceReport Cloth<float>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
 template AdvanceReport Cloth<float>::attempt(const Air&, double, double);
-template bool Cloth<float>::driven(const Forces<float>&, double) const;
+template Drive Cloth<float>::drive(const Forces<float>&, double) const;
 template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
 template void Cloth<float>::forget_attempt();
 template std::vector<Solid> Cloth<float>::seen(const std::vector<Solid>&) const;
@@ -243,7 +248,7 @@ template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const A
 template Forces<double> Cloth<double>::forces(const EffectContext&);
 template AdvanceReport Cloth<double>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
 template AdvanceReport Cloth<double>::attempt(const Air&, double, double);
-template bool Cloth<double>::driven(const Forces<double>&, double) const;
+template Drive Cloth<double>::drive(const Forces<double>&, double) const;
 template const VectorField<float>* Cloth<double>::node_air(const Air&, double, double);
 template void Cloth<double>::forget_attempt();
 template std::vector<Solid> Cloth<double>::seen(const std::vector<Solid>&) const;

@@ -274,10 +274,20 @@ TEST(FrictionTune, OfABallIsAsIfItHadBeenDescribedSo) {
 
 // What integrators remember of the steps before stays right: BDF2's moves, and what XPBD's damped springs
 // hold, by spring. In wind: the bound on the energy of what nothing drives begins anew with a change.
+IntegratorDescription without_ledger(IntegratorDescription integrator) {
+  std::visit(
+      [](auto& method) {
+        if constexpr (requires { method.liveliness; }) method.liveliness = 0;
+      },
+      integrator);
+  return integrator;
+}
+
+// But for what the energy ledger owes the motion: a change of the material begins its books anew.
 TEST(MaterialTuneSlow, ThereAndBackBetweenTwoStepsChangesNoBit) {
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
     SCOPED_TRACE(integrator.index());
-    SimulationDescription scene = hung_sheet(integrator);
+    SimulationDescription scene = hung_sheet(without_ledger(integrator));
     scene.effects.push_back(StrainDampingEffect{0.01});
     scene.effects.push_back(AerodynamicsEffect{});
     scene.wind.speed = 1;

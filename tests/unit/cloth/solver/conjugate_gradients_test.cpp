@@ -129,5 +129,31 @@ TEST(Multigrid, IterationsHardlyGrowWithAPlate) {
   }
 }
 
+// What an earlier solve found is a direction like any other: it is taken by its best multiple.
+TEST(ConjugateGradients, BeginWithTheEarlierCorrection) {
+  HungSheet sheet(17, 5e4);
+  const double enough = 1e-12 * sheet.system.precondition(sheet.b, sheet.x);
+  NodeArrays<double> arrays(sheet.grid, 3);
+  const kernels::Components<double> correction = arrays.vector();
+  ConjugateGradients<double> solver(sheet.grid);
+  const auto solve = [&](double guess) {
+    each_node(sheet.grid, [&](int r, int c) {
+      const std::size_t i = sheet.grid.index(r, c);
+      sheet.x.x[i] = sheet.x.z[i] = 0;
+      sheet.x.y[i] = guess * sheet.b.y[i];
+    });
+    return solver.solve(sheet.system, sheet.b, sheet.x, {.least = enough}, 200, &correction);
+  };
+  const LinearSolveReport first = solve(0), again = solve(0);
+  EXPECT_GT(first.iterations, 10);
+  EXPECT_LE(again.iterations, 2) << "the correction is the solution";
+  EXPECT_NEAR(again.decrease, first.decrease, 1e-9 * first.decrease);
+  const LinearSolveReport guessed = solve(1e-3);
+  EXPECT_LE(guessed.iterations, 2) << "the guess and the correction together hold it";
+  EXPECT_NEAR(guessed.decrease, first.decrease, 1e-9 * first.decrease);
+  // Now what was found beside the guess is in it: any multiple of the same guess will do.
+  EXPECT_LE(solve(-5e-3).iterations, 2);
+}
+
 }  // namespace
 }  // namespace weft
