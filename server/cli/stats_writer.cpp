@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kHeader =
     "frame,time,level,substeps,milliseconds,kinetic_energy,potential_energy,max_strain,max_"
-    "compression,mean_strain,nodes_in_contact";
+    "compression,mean_strain,nodes_in_contact,energy_lost,energy_given_back";
 
 }  // namespace
 
@@ -37,6 +37,9 @@ void StatsWriter::write(int frame, const Simulation<float>& simulation) {
     field(report.strain.max_compression);
     field(report.strain.mean);
     field(report.nodes_in_contact);
+    const AdvanceReport& step = simulation.last_advance(cloth);
+    field(step.energy_lost);
+    field(step.energy_given_back);
     if (several_cloths_) line += "," + simulation.cloths()[cloth].description().name;
     file_.write(line + '\n');
   }

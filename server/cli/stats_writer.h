@@ -8,7 +8,8 @@
 namespace weft::cli {
 
 /// One line a frame and cloth: frame, time (s), level, substeps, milliseconds (wall time of the whole step),
-/// energies (J), strains, nodes in contact; a last column with the cloth's name if the scene has several. All
+/// energies (J), strains, nodes in contact, what the step's numerics took of the energy and what was given
+/// back (J, AdvanceReport); a last column with the cloth's name if the scene has several. All
 /// but milliseconds are the same in every run.
 class StatsWriter {
  public:

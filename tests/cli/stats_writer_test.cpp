@@ -37,10 +37,10 @@ TEST_F(StatsWriterTest, OneStepOfFreeFall) {
   writer.finish();
   const std::vector<Row> rows = rows_of(bytes("stats.csv"));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0],
-            (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy", "potential_energy",
-                 "max_strain", "max_compression", "mean_strain", "nodes_in_contact"}));
-  ASSERT_EQ(rows[1].size(), 11u);
+  EXPECT_EQ(rows[0], (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy",
+                          "potential_energy", "max_strain", "max_compression", "mean_strain",
+                          "nodes_in_contact", "energy_lost", "energy_given_back"}));
+  ASSERT_EQ(rows[1].size(), 13u);
   EXPECT_EQ(rows[1][0], "0");
   EXPECT_EQ(rows[1][1], "0");
   EXPECT_EQ(rows[1][2], "6");
@@ -53,6 +53,7 @@ TEST_F(StatsWriterTest, OneStepOfFreeFall) {
   EXPECT_NEAR(std::stod(rows[2][6]), -0.4 * 9.81 * 0.002725, 1e-5);       // m g y; float positions
   EXPECT_NEAR(std::stod(rows[2][7]), 0, 1e-5);
   EXPECT_EQ(rows[2][10], "0");
+  EXPECT_EQ(rows[2][11], "0") << "not counted of explicit methods";
 }
 
 // 2 m x 2 m in 8 x 8 cells of 0.25 m, a corner moved along its row by 0.05 m out, then in: that row's last

@@ -63,8 +63,8 @@ TEST_P(Place, AHungClothComesToRestAnywhere) {
   const int expected = steps_to_sleep(near, kMost);
   ASSERT_LT(expected, kMost);
   // Multiples of the places' grid: the same bits. Between two: the start is rounded otherwise, by 1e-7 m, and
-  // what is slower than the threshold, 0.1 mm/s, for a second sleeps sooner or later, and as much short of its
-  // balance; but not later than by its damping: 510 steps, by symplectic Euler.
+  // what is slower than the threshold, 0.1 mm/s, for a second sleeps sooner or later, and as much short of
+  // its balance; but not later than by its damping: 510 steps, by symplectic Euler.
   for (const Vec3& at : {Vec3(200, 0, 0), Vec3(10000, -200, 5000)}) {
     Simulation<float> far(hung(GetParam(), at));
     EXPECT_EQ(steps_to_sleep(far, kMost), expected);

@@ -45,7 +45,7 @@ void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forc
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
   const double now = motion_energy(particles).beside_centre + stored(particles, forces);
-  account_ = {.drive = forces.drive, .most = now + height(particles, forces), .due = now};
+  account_ = {.drive = forces.drive, .most = now + height(particles, forces), .now = now};
 }
 
 template <class Real>
@@ -66,20 +66,25 @@ void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forc
 
 template <class Real>
 double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt,
-                                    bool touched) {
+                                    bool touched, AdvanceReport& report) {
   if (!account_) return 1;
   Account& account = *account_;
   const MotionEnergy motion = motion_energy(particles);
   const double now = motion.beside_centre + stored(particles, forces);
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
-  account.due = touched ? now : account.due + work_;
-  const bool wind = account.drive == Drive::wind, lost = account.due > now;
-  const double kept = lost ? kept_share(particles, account.motion, dt) * (wind ? kKeptInWind : 1) : 1;
-  account.due = now + liveliness_ * kept * (account.due - now);
-  const double most = kMostChange * motion.inner, owed = kMostOwed * account.motion;
-  double change = std::clamp(account.due - now, -most, most);
+  const double lost = touched ? 0 : account.now + work_ - now;
+  account.owed = touched ? 0 : account.owed + lost;
+  const bool wind = account.drive == Drive::wind;
+  const double kept =
+      account.owed > 0 ? kept_share(particles, account.motion, dt) * (wind ? kKeptInWind : 1) : 1;
+  account.owed *= liveliness_ * kept;
+  const double most = kMostChange * motion.inner, most_owed = kMostOwed * account.motion;
+  double change = std::clamp(account.owed, -most, most);
   if (!wind) change = std::min(change, account.most - now - height(particles, forces));
-  account.due = now + change + std::clamp(account.due - now - change, -owed, owed);
+  account.owed = std::clamp(account.owed - change, -most_owed, most_owed);
+  account.now = now + change;
+  report.energy_lost = lost;
+  report.energy_given_back = change;
   return add_to_motion(particles, change);
 }
 

@@ -36,14 +36,16 @@ class EnergyLedger {
                   const VectorField<Real>& start, const VectorField<Real>* dampers, double h);
   /// After a step of `dt` seconds, in which something may have touched the cloth. Returns by what each
   /// velocity was multiplied: what else the integrator remembers of the motion it has to scale likewise
-  /// (scale_motion).
-  double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched);
+  /// (scale_motion). Tells `report` what was lost and what given back.
+  double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched,
+                  AdvanceReport& report);
 
  private:
   struct Account {
     Drive drive;        ///< wind or nothing
     double most;        ///< J, that the cloth had when it was last driven, with height where it is held
-    double due;         ///< J, that it should have now, without height
+    double owed = 0;    ///< J, that its motion lost before this step and did not get back
+    double now;         ///< J, that it has as the step begins, without height
     double motion = 0;  ///< the inner motion's largest energy of late, J
   };
   /// Of springs and plate, J.

@@ -81,7 +81,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     touched = touched || report.nodes_in_contact > 0 || !contacts.empty();
     end_substep(particles, contact, h);
   }
-  const double scale = memory_->ledger.end_step(particles, forces, dt, touched);
+  const double scale = memory_->ledger.end_step(particles, forces, dt, touched, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
   if (second_order_ && scale != 1) scale_motion(particles, scale, memory_->last_velocity);
   report.sound = state_->sound;

@@ -64,7 +64,7 @@ class Implicit final : public Integrator<Real> {
     Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
     VectorField<Real> last_move, last_velocity;
     NodeArrays<Real> correction;  ///< of the last substep's guess by its first solve, m
-    double h = 0;  ///< s, of the last substep
+    double h = 0;                 ///< s, of the last substep
     ContactConstraints<Real> contacts;
     EnergyLedger<Real> ledger;
 

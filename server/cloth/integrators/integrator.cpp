@@ -17,6 +17,8 @@ AdvanceReport& AdvanceReport::operator+=(const AdvanceReport& next) {
   forces_seconds += next.forces_seconds;
   contact_seconds += next.contact_seconds;
   check_seconds += next.check_seconds;
+  energy_lost += next.energy_lost;
+  energy_given_back += next.energy_given_back;
   sound = sound && next.sound;
   return *this;
 }

@@ -91,7 +91,10 @@ struct AdvanceReport {
   double forces_seconds = 0;   ///< wall time
   double contact_seconds = 0;  ///< wall time
   double check_seconds = 0;    ///< wall time of the step guard
-  bool sound = true;           ///< false if no next state was found: the particles' is not to be used
+  /// J, that formula and solves took from the cloth and what was given back to its motion (EnergyLedger), or
+  /// below 0 the other way round; 0 where it was not counted.
+  double energy_lost = 0, energy_given_back = 0;
+  bool sound = true;  ///< false if no next state was found: the particles' is not to be used
 
   /// What this and the advance after it did together.
   AdvanceReport& operator+=(const AdvanceReport& next);
