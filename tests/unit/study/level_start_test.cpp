@@ -21,28 +21,32 @@ SimulationDescription made_at(int level, SimulationDescription description) {
   return description;
 }
 
+class Levels : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Slow, Levels, ::testing::Values(4, 5));
+INSTANTIATE_TEST_SUITE_P(Nightly, Levels, ::testing::Values(6));
+
 /// The preset whose first level is 4 and whose pleats hold 24 J at the start.
-TEST(Levels, AStudysErrorsAreThoseOfOneProblemSlow) {
+TEST_P(Levels, AStudysErrorsAreThoseOfOneProblem) {
   const SimulationDescription curtain = std::get<scene::Scene>(scene::load("curtain")).simulation;
-  for (const int level : {5}) {
-    // A second a frame: 21 s for a reference of 2 to 64 substeps, then a run of the scene's own and this one.
-    double seconds = 0;
-    const StudyPlan plan{{level}, {SymplecticEulerDescription::kName}, kShortSpan, 35, 0};
-    const Study study = study_cost(
-        curtain, plan, [&] { return seconds; }, [&] { seconds += 1; });
-    ASSERT_TRUE(study.levels[0].reference.usable());
-    const auto told =
-        std::find_if(study.levels[0].runs.begin(), study.levels[0].runs.end(), [](const auto& run) {
-          return std::holds_alternative<SymplecticEulerDescription>(run.candidate.integrator);
-        });
-    SimulationDescription by_hand = made_at(level, curtain);
-    by_hand.integrator = told->candidate.integrator;
-    const Trajectory run = simulate<float>(by_hand, {level, kShortSpan}, kToItsEnd);
-    by_hand.integrator = SymplecticEulerDescription{16 * run.substeps, 0.9};
-    const Trajectory converged = simulate<double>(by_hand, {level, kShortSpan}, kToItsEnd);
-    const double error = errors_of(run, converged).rms_position;
-    EXPECT_NEAR(told->time.rms_position / error, 1, 0.2) << "level " << level << ", by hand " << error;
-  }
+  const int level = GetParam();
+  // A second a frame: 21 s for a reference of 2 to 64 substeps, then a run of the scene's own and this one.
+  // Level 6 needs a finer reference: with as much it has not converged, and the error told is 1.3 times off.
+  double seconds = 0;
+  const StudyPlan plan{{level}, {SymplecticEulerDescription::kName}, kShortSpan, level < 6 ? 35.0 : 70.0, 0};
+  const Study study = study_cost(
+      curtain, plan, [&] { return seconds; }, [&] { seconds += 1; });
+  ASSERT_TRUE(study.levels[0].reference.usable());
+  const auto told =
+      std::find_if(study.levels[0].runs.begin(), study.levels[0].runs.end(), [](const auto& run) {
+        return std::holds_alternative<SymplecticEulerDescription>(run.candidate.integrator);
+      });
+  SimulationDescription by_hand = made_at(level, curtain);
+  by_hand.integrator = told->candidate.integrator;
+  const Trajectory run = simulate<float>(by_hand, {level, kShortSpan}, kToItsEnd);
+  by_hand.integrator = SymplecticEulerDescription{16 * run.substeps, 0.9};
+  const Trajectory converged = simulate<double>(by_hand, {level, kShortSpan}, kToItsEnd);
+  const double error = errors_of(run, converged).rms_position;
+  EXPECT_NEAR(told->time.rms_position / error, 1, 0.2) << "by hand " << error;
 }
 
 }  // namespace
