@@ -79,7 +79,7 @@ export async function skip(server, scene, seconds) {
   const viewer = await connect(`ws://127.0.0.1:${server.port}/v1/scenes/${scene}`, {WebSocket, timeout: kPatienceMs});
   await viewer.pause();
   for (let left = Math.ceil(seconds / viewer.scene.dt); left > 0; left -= 600) {
-    // The last frame may be here before the answer is.
+    // The answer and the last frame may come together: then the frame has been dealt with when the answer is.
     let newest = 0, wanted = Infinity;
     const arrived = viewer.nextFrame(({stamp}) => (newest = stamp.f) >= wanted);
     arrived.catch(() => {});  // not waited for if it is

@@ -29,7 +29,8 @@ namespace weft {
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
 ///
-/// A cloth that nothing drives neither gains nor loses energy by what the solves leave undone (EnergyLedger).
+/// What formula and solves take from a cloth's energy is given back where nothing but wind drives it, and
+/// what they give is taken (EnergyLedger).
 ///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
 /// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth

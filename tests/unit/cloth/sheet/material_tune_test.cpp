@@ -272,8 +272,6 @@ TEST(FrictionTune, OfABallIsAsIfItHadBeenDescribedSo) {
   }
 }
 
-// What integrators remember of the steps before stays right: BDF2's moves, and what XPBD's damped springs
-// hold, by spring. In wind: the bound on the energy of what nothing drives begins anew with a change.
 IntegratorDescription without_ledger(IntegratorDescription integrator) {
   std::visit(
       [](auto& method) {
@@ -283,7 +281,8 @@ IntegratorDescription without_ledger(IntegratorDescription integrator) {
   return integrator;
 }
 
-// But for what the energy ledger owes the motion: a change of the material begins its books anew.
+// What integrators remember of the steps before stays right: BDF2's moves, and what XPBD's damped springs
+// hold, by spring. In wind and without the ledger: the books of the energy begin anew with a change.
 TEST(MaterialTuneSlow, ThereAndBackBetweenTwoStepsChangesNoBit) {
   for (const IntegratorDescription& integrator : kMethodsOfMaterials) {
     SCOPED_TRACE(integrator.index());
