@@ -55,7 +55,12 @@ TEST(Pierced, IsWhatHasASolidWithinTheMostStretchedSpring) {
   Particles<float>& sheet = simulation.cloths()[0].particles();
   const Grid& grid = sheet.grid();
   for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.cols; ++c) sheet.position.z.at(r, c) = 0.3F;
+    for (int c = 0; c < grid.cols; ++c) {
+      const Vec2 at(2.0 * c / (grid.cols - 1) - 1, 1 - 2.0 * r / (grid.rows - 1));
+      sheet.position.x.at(r, c) = static_cast<float>(at.x());
+      sheet.position.y.at(r, c) = static_cast<float>(at.y());
+      sheet.position.z.at(r, c) = 0.3F;
+    }
   }
   EXPECT_FALSE(is_pierced(simulation));
   sheet.position.x.at(4, 4) = 0.25F;

@@ -123,6 +123,7 @@ void Layers<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
   std::fill(nodes_.lies.begin(), nodes_.lies.end(), 0);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     for (const Touch& touch : cloths[k].touches()) {
+      if (touch.point().between_nodes()) continue;
       const std::size_t n = nodes_.first[k] + touch.node;
       if (before[n] != 0 && nodes_.lies[n] == 0) nodes_.inverse_mass[n] *= kOnSolid;
       on_solid_[n] = 1;
@@ -233,10 +234,12 @@ bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
     }
     if (!changed) continue;
     for (const Touch& touch : cloths[k].keep_outside(before, dt)) {
-      const std::size_t n = nodes_.first[k] + touch.node;
       const Particles<Real>& outside = cloths[k].particles();
-      nodes_.end[n] = outside.place + at(kernels::components(outside.position), touch.node);
-      nodes_.inverse_mass[n] *= kHeldUp;
+      ClothPoint<Real>(touch.point(), outside).for_each_node([&](std::size_t node, double) {
+        const std::size_t n = nodes_.first[k] + node;
+        nodes_.end[n] = outside.place + at(kernels::components(outside.position), node);
+        nodes_.inverse_mass[n] *= kHeldUp;
+      });
       met = true;
     }
     cloths[k].moved_from_outside();

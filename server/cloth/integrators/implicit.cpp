@@ -114,10 +114,10 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   }
   if (state_->torn != forces.springs->torn()) {
     state_->torn = forces.springs->torn();
+    memory_->contacts.forget_points_between();
     state_->piece_mass = state_->torn ? piece_masses(*state_->torn, particles) : std::vector<double>();
   }
   if (state_->soft) forces.springs = &*state_->soft;
-  if (forces.layers == nullptr) state_->system.couplings().clear();
   if (forces.gas == nullptr) state_->system.set_rank_one(0, {});
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
@@ -175,9 +175,10 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   } else {
     kernels::assemble_system<Real>(mass, finest.free(), s.step, iterate, finest.diagonal(), s.b, count);
   }
+  s.system.couplings().clear();
   if (!memory_->contacts.empty()) {
-    memory_->contacts.add_to(finest.matrix.blocks, s.b, s.system.bodies(), finest.diagonal(),
-                             forces.springs->node_stiffness(), s.piece_mass, s.move);
+    memory_->contacts.add_to(finest.matrix.blocks, s.system.couplings(), s.b, s.system.bodies(),
+                             finest.diagonal(), forces.springs->node_stiffness(), s.piece_mass, s.move);
   }
   if (forces.layers != nullptr) {
     forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
@@ -250,7 +251,11 @@ void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>
   memory_->second_order.fill(s.smooth ? Real(1) : Real(0));
   s.smooth = true;
   if (contact == nullptr) return;
-  for (const Touch& touch : contact->touches()) memory_->begin_anew(touch.node);
+  for (const Touch& touch : contact->touches()) {
+    ClothPoint<Real>(touch.point(), particles).for_each_node([&](std::size_t node, double) {
+      memory_->begin_anew(node);
+    });
+  }
 }
 
 template class Implicit<float>;

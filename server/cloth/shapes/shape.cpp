@@ -199,6 +199,19 @@ Eigen::AlignedBox3d PlacedShape::bounds() const {
   return {centre - half, centre + half};
 }
 
+double bore(const Shape& shape) {
+  Vec3 half;
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    half = box->half;
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    half = mesh->surface->bounds().sizes() / 2;
+  } else {
+    return inner_radius(shape);
+  }
+  std::sort(half.begin(), half.end());
+  return std::hypot(half[0], half[1]);
+}
+
 double outer_radius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.norm();

@@ -64,6 +64,9 @@ struct PlacedShape {
 
 /// Half of the shape's smallest width, m: a node that moves much less in a substep cannot pass through.
 double inner_radius(const Shape& shape);
+/// Radius of the smallest round hole that the shape fits through, m; infinite for a half-space; of a mesh the
+/// box's around it in its own frame.
+double bore(const Shape& shape);
 /// Of the smallest ball around its centre that holds it, m. Infinite for a half-space.
 double outer_radius(const Shape& shape);
 

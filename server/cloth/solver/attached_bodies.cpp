@@ -2,8 +2,6 @@
 
 #include <Eigen/LU>
 
-#include "cloth/kernels/node_vector.h"
-
 namespace weft {
 namespace {
 
@@ -55,7 +53,7 @@ void AttachedBodies<Real>::detach() {
 }
 
 template <class Real>
-void AttachedBodies<Real>::attach(int body, std::size_t node, const Vec3& arm,
+void AttachedBodies<Real>::attach(int body, const ClothPoint<Real>& point, const Vec3& arm,
                                   const Eigen::Matrix3d& stiffness, const Vec3& force) {
   const auto index = static_cast<std::size_t>(body);
   Body& hung = bodies_[index];
@@ -64,7 +62,7 @@ void AttachedBodies<Real>::attach(int body, std::size_t node, const Vec3& arm,
   hung.coupling += coupling;
   hung.turning += lever * coupling;
   hung.force.add_force(-force, arm);
-  springs_.push_back({index, node, arm, stiffness});
+  springs_.push_back({index, point, arm, stiffness});
 }
 
 template <class Real>
@@ -74,7 +72,7 @@ void AttachedBodies<Real>::eliminate(kernels::Components<Real> b) {
     body.change = body.solve(body.force);
   }
   for (const Spring& spring : springs_) {
-    weft::add(b, spring.node, spring.stiffness * bodies_[spring.body].change.at(spring.arm));
+    spring.point.add_force(b, spring.stiffness * bodies_[spring.body].change.at(spring.arm));
   }
 }
 
@@ -82,7 +80,7 @@ template <class Real>
 double AttachedBodies<Real>::multiply(kernels::Components<const Real> x, kernels::Components<Real> y) const {
   sums_.assign(bodies_.size(), Screw{});
   for (const Spring& spring : springs_) {
-    sums_[spring.body].add_force(spring.stiffness * at(x, spring.node), spring.arm);
+    sums_[spring.body].add_force(spring.stiffness * spring.point.moved_by(x), spring.arm);
   }
   double product = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -91,7 +89,7 @@ double AttachedBodies<Real>::multiply(kernels::Components<const Real> x, kernels
     sums_[i] = change;
   }
   for (const Spring& spring : springs_) {
-    weft::add(y, spring.node, -spring.stiffness * sums_[spring.body].at(spring.arm));
+    spring.point.add_force(y, -spring.stiffness * sums_[spring.body].at(spring.arm));
   }
   return product;
 }
@@ -104,7 +102,7 @@ double AttachedBodies<Real>::find_changes(kernels::Components<const Real> x) {
     body.change = body.force;
   }
   for (const Spring& spring : springs_) {
-    bodies_[spring.body].change.add_force(spring.stiffness * at(x, spring.node), spring.arm);
+    bodies_[spring.body].change.add_force(spring.stiffness * spring.point.moved_by(x), spring.arm);
   }
   for (Body& body : bodies_) body.change = body.solve(body.change);
   return decrease;

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "cloth/core/vec3.h"
-#include "cloth/kernels/components.h"
+#include "cloth/sheet/cloth_point.h"
 
 namespace weft {
 
@@ -30,9 +30,9 @@ class AttachedBodies {
 
   /// A system is assembled as follows: detach(), attach() for every spring, eliminate().
   void detach();
-  /// Hangs a body on a node, at `arm` from its centre, m, by a spring that now pulls the node with `force`,
-  /// N.
-  void attach(int body, std::size_t node, const Vec3& arm, const Eigen::Matrix3d& stiffness,
+  /// Hangs a body on a node, or a point between nodes, at `arm` from its centre, m, by a spring that now
+  /// pulls the point with `force`, N.
+  void attach(int body, const ClothPoint<Real>& point, const Vec3& arm, const Eigen::Matrix3d& stiffness,
               const Vec3& force);
   /// b += C^T S^-1 r.
   void eliminate(kernels::Components<Real> b);
@@ -82,7 +82,8 @@ class AttachedBodies {
     Screw solve(const Screw& f) const;
   };
   struct Spring {
-    std::size_t body, node;
+    std::size_t body;
+    ClothPoint<Real> point;
     Vec3 arm;
     Eigen::Matrix3d stiffness;
   };

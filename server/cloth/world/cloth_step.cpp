@@ -172,6 +172,7 @@ std::vector<Solid> Cloth<Real>::seen(const std::vector<Solid>& solids) const {
 template <class Real>
 Contact<Real>& Cloth<Real>::contact() {
   if (!contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
+  contact_->set_torn(torn_.get());
   return *contact_;
 }
 
@@ -199,17 +200,21 @@ void Cloth<Real>::add_pins_near(const std::vector<Solid>& solids, double time, d
       longest = std::max(longest, way.norm());
     });
   }
-  for (const auto& [node, solid] : contact().pinned_near(particles_, seen(solids), longest)) {
+  for (const NearPoint& near : contact().pinned_near(particles_, seen(solids), longest)) {
+    const ClothPoint<Real> point(near.point, particles_);
     Solid pin;
     pin.shape = Sphere{0};
-    pin.friction = solids[solid].friction;
-    pin.start = pin.position = particles_.place + at<Real>(kernels::components(particles_.position), node);
-    if (const auto way = ways.find(node); way != ways.end()) {
+    pin.friction = solids[near.solid].friction;
+    pin.start = pin.position =
+        particles_.place + point.of(kernels::components(std::as_const(particles_.position)));
+    point.for_each_node([&](std::size_t node, double weight) {
+      const auto way = ways.find(node);
+      if (way == ways.end()) return;
       pin.mobile = true;
-      pin.position += way->second;
-      pin.velocity = way->second / dt;
-    }
-    found.push_back({solid, pin});
+      pin.position += weight * way->second;
+      pin.velocity += weight / dt * way->second;
+    });
+    found.push_back({near.solid, pin});
   }
 }
 

@@ -153,8 +153,7 @@ void Simulation<Real>::step() {
   for (Cloth<Real>& cloth : cloths_) cloth.apply_pending_level();
   profile_.levels = seconds(Clock::now() - begin);
 
-  const bool solid = !colliders_.balls().empty() || !colliders_.obstacles().empty();
-  const int parts = step_parts(cloths_, layers_.get(), solid, time(), description_.time_step);
+  const int parts = step_parts(cloths_, layers_.get(), colliders_.solids(), time(), description_.time_step);
   const double dt = description_.time_step / parts, start = time();
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   for (int part = 0; part < parts; ++part) step_part(start + part * dt, dt, parts - part);

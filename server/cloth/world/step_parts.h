@@ -19,8 +19,12 @@ namespace weft {
 ///
 /// With `solid` colliders an implicit step stops nodes on straight ways: in a part pins move by at most half
 /// of their cloth's larger side, up to 8 parts. Pins fixed to an obstacle do not count.
+///
+/// A body on a cloth that another hits is where the cloth's step did not expect it: it would be through
+/// before the cloth feels it. While a body touches cloth, none that touches it or may hit it goes farther in
+/// a part than its inner radius, up to 4 parts.
 template <class Real>
-int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layers, bool solid, double time,
-               double dt);
+int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layers,
+               const std::vector<Solid>& solids, double time, double dt);
 
 }  // namespace weft

@@ -28,11 +28,11 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const double h = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
-  const Real* mass = particles.mass.row(0);
   // `surface` as it will be beside the node if both go on as they go.
   const auto holding = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
-    const Vec3 place = at(position, touch.node), way = h * at(velocity, touch.node);
-    Constraint made = held_by(touch, solid, surface, place, way, double(mass[touch.node]));
+    const ClothPoint<Real> point(touch.point(), particles);
+    const Vec3 place = point.of(position), way = h * point.moved_by(velocity);
+    Constraint made = held_by(touch, point, solid, surface, place, way);
     made.body = body_of(solid, solids, bodies);
     if (solid.yields_turning())
       made.arm = place + way - surface.distance * surface.normal - solid.at(substep.to);
@@ -49,13 +49,15 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     const auto solid =
         std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.id == touch.collider; });
     if (solid == solids.end()) continue;
-    const Vec3 guess = at(position, touch.node) + h * at(velocity, touch.node);
-    const Surface surface = solid->placed(substep.to).surface(guess);
-    // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds.
-    if (surface.distance <= touching_distance(h)) {
+    const ClothPoint<Real> point(touch.point(), particles);
+    const Vec3 place = point.of(position), guess = place + h * point.moved_by(velocity);
+    const Surface surface = way_out_of(solid->placed(substep.to), touch.point(), guess, particles.position);
+    // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds;
+    // what lies on a body is held all the same, as springs may bring it back, and is let go if it pulls.
+    const double reach = solid->yields() ? inner_radius(solid->shape) : touching_distance(h);
+    if (surface.distance <= reach) {
       constraints_.push_back(holding(touch, *solid, surface));
-    } else if (const Vec3 place = at(position, touch.node);
-               lay_on(*solid, place) && !flies_through(*solid, place, guess)) {
+    } else if (lay_on(*solid, place) && !flies_through(*solid, place, guess)) {
       not_held_.push_back(touch);
     }
   }
@@ -89,8 +91,9 @@ void ContactConstraints<Real>::sort_by_touch() {
 }
 
 template <class Real>
-auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, const Surface& surface,
-                                       const Vec3& place, const Vec3& way, double mass) const -> Constraint {
+auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
+                                       const Surface& surface, const Vec3& place, const Vec3& way) const
+    -> Constraint {
   const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
   const bool held = same != last_.end() && same->touch == touch;
   const double holds = held ? solid.friction * same->usual_force() : 0.0;
@@ -98,6 +101,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   const Vec3& normal = surface.normal;
   const double slid = across(slip, normal).norm();
   Constraint made{touch,
+                  point,
                   std::nullopt,
                   Vec3(0, 0, 0),
                   normal,
@@ -114,7 +118,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const Solid& solid, c
   }
   made.has_stuck = held && (same->has_stuck || same->sticks());
   if (made.has_stuck) {
-    made.speeding_up = speeding_up(*same, slid, holds, mass);
+    made.speeding_up = speeding_up(*same, slid, holds, point.mass());
     made.sliding += std::max(0.0, std::min(made.speeding_up, same->speeding_up));
   }
   if (held && near_rest_) made.grip = across(same->grip, normal);
@@ -148,9 +152,9 @@ double ContactConstraints<Real>::speeding_up(const Constraint& last, double slid
 /// This solid, or one that faces it, holds the node.
 template <class Real>
 bool ContactConstraints<Real>::holds_already(const Touch& touch, const Vec3& normal) const {
-  const Touch first{touch.node, 0};
+  const Touch first{touch.node, 0, touch.within};
   for (auto c = std::lower_bound(constraints_.begin(), constraints_.end(), first, is_before);
-       c != constraints_.end() && c->touch.node == touch.node; ++c) {
+       c != constraints_.end() && c->touch.point() == touch.point(); ++c) {
     if (c->touch == touch || c->normal.dot(normal) <= kFacing) return true;
   }
   return false;
@@ -162,16 +166,16 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
                                            kernels::Components<const Real> move, AttachedBodies<Real>& bodies,
                                            double links_stiffness, double missed) {
   const kernels::Components<const Real> position = kernels::components(particles.position);
-  const Real* mass = particles.mass.row(0);
   std::vector<Constraint> more;
   double energy = 0;
   for (const Touch& touch : inside) {
     const Solid& solid = solid_of(touch, solids);
-    const Vec3 place = at(position, touch.node), way = at(move, touch.node);
-    const Surface surface = solid.placed(substep_.to).surface(place);
+    const ClothPoint<Real> point(touch.point(), particles);
+    const Vec3 place = point.of(position), way = point.moved_by(move);
+    const Surface surface = way_out_of(solid.placed(substep_.to), touch.point(), place, particles.position);
     if (holds_already(touch, surface.normal)) continue;
     energy += links_stiffness * surface.distance * surface.distance / 2;
-    Constraint made = held_by(touch, solid, surface, place - way, way, double(mass[touch.node]));
+    Constraint made = held_by(touch, point, solid, surface, place - way, way);
     made.body = body_of(solid, solids, bodies);
     if (made.body) {
       made.arm = place - surface.distance * surface.normal - solid.at(substep_.to);
@@ -199,7 +203,7 @@ bool ContactConstraints<Real>::let_go_of_slid_off(const Particles<Real>& particl
     const Vec3 way = move_of(c, move, bodies);
     if (!((way - c.solid_move).squaredNorm() > c.width * c.width)) continue;
     const Solid& solid = solid_of(c.touch, solids);
-    const Vec3 start = at(position, c.touch.node) - at(move, c.touch.node);
+    const Vec3 start = c.point.of(position) - c.point.moved_by(move);
     const bool off = !solid.placed(substep_.to).may_touch(start + way, kSlidOff * c.width);
     if (off && lay_on(solid, start)) not_held_.push_back(c.touch);
   }
@@ -214,7 +218,7 @@ bool ContactConstraints<Real>::let_go_of_slid_off(const Particles<Real>& particl
 template <class Real>
 void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real> velocity) {
   const auto room = [&](const Constraint& c) {
-    return substep_.seconds * c.normal.dot(at(velocity, c.touch.node)) - c.distance;
+    return substep_.seconds * c.normal.dot(c.point.moved_by(velocity)) - c.distance;
   };
   const auto pinched = [&](const Constraint& a, const Constraint& b) {
     return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
@@ -225,8 +229,9 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
   };
   std::vector<Constraint> kept;
   for (auto node = constraints_.begin(); node != constraints_.end();) {
-    const auto end = std::find_if(node, constraints_.end(),
-                                  [&](const Constraint& c) { return c.touch.node != node->touch.node; });
+    const auto end = std::find_if(node, constraints_.end(), [&](const Constraint& c) {
+      return c.touch.point() != node->touch.point();
+    });
     const bool stuck = std::any_of(node, end, [&](const Constraint& a) {
       return std::any_of(node, end, [&](const Constraint& b) { return pinched(a, b); });
     });

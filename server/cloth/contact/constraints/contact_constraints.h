@@ -5,6 +5,7 @@
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/solver/attached_bodies.h"
+#include "cloth/solver/node_couplings.h"
 #include "cloth/solver/one_sided_springs.h"
 
 namespace weft {
@@ -33,6 +34,8 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
 /// iteration has put into one from the next on: put there after the step they would stretch their springs at
 /// nobody's cost.
+///
+/// A point between nodes (points_between) is held as a node is, by a spring that couples its nodes.
 ///
 /// A tangent plane stands for its solid only as far as that is wide (kSlidOff): a node that is drawn along it
 /// past the solid's side has slid off, and is let go.
@@ -67,13 +70,17 @@ class ContactConstraints {
     not_held_.clear();
   }
   bool empty() const { return constraints_.empty(); }
+  /// The cloth tore: where a point between nodes was held may be a hole.
+  void forget_points_between() {
+    std::erase_if(constraints_, [](const Constraint& c) { return c.touch.point().between_nodes(); });
+  }
 
   /// Adds the constraints to the system of a Newton iteration at `move`. `links_stiffness` is the sum of the
   /// link stiffnesses at a node, N/m, and `diagonal` the system's: together they set how stiff the springs
   /// are, held to what the masses of torn pieces bear, `piece_mass`, kg, by node; empty if it is whole.
-  void add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b, AttachedBodies<Real>& bodies,
-              const Real* diagonal, double links_stiffness, const std::vector<double>& piece_mass,
-              kernels::Components<const Real> move);
+  void add_to(kernels::Blocks<Real> blocks, NodeCouplings<Real>& couplings, kernels::Components<Real> b,
+              AttachedBodies<Real>& bodies, const Real* diagonal, double links_stiffness,
+              const std::vector<double>& piece_mass, kernels::Components<const Real> move);
   /// Appends the constraints as they are at `move` along `change`.
   void append_springs(kernels::Components<const Real> move, kernels::Components<const Real> change,
                       const AttachedBodies<Real>& bodies, std::vector<OneSidedSpring>& springs) const;
@@ -87,15 +94,18 @@ class ContactConstraints {
   /// Takes from the velocities what leading nodes out of solids gave them: that is no motion.
   void keep_velocities(kernels::Components<Real> velocity) const;
 
-  /// Calls visit(node index) for every constrained node.
+  /// Calls visit(node index) for every constrained node, and those of every constrained point.
   template <class Visit>
   void for_each_node(Visit visit) const {
-    for (const Constraint& constraint : constraints_) visit(constraint.touch.node);
+    for (const Constraint& constraint : constraints_) {
+      constraint.point.for_each_node([&](std::size_t node, double) { visit(node); });
+    }
   }
 
  private:
   struct Constraint {
     Touch touch;
+    ClothPoint<Real> point;   ///< that touches
     std::optional<int> body;  ///< index
     Vec3 arm;                 ///< where the node hangs on the body, from its centre, m; 0: by it
     Vec3 normal;
@@ -125,10 +135,9 @@ class ContactConstraints {
   static bool is_before(const Constraint& c, const Touch& touch);
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
-  /// `place` is the node's when the substep begins, `way` its move that `surface` was looked up for, `mass`
-  /// in kg.
-  Constraint held_by(const Touch& touch, const Solid& solid, const Surface& surface, const Vec3& place,
-                     const Vec3& way, double mass) const;
+  /// `place` is the point's when the substep begins, `way` its move that `surface` was looked up for.
+  Constraint held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
+                     const Surface& surface, const Vec3& place, const Vec3& way) const;
   /// By how much more than `slid`, m, a node that has stuck will slide in the substep by what pulled at it in
   /// the last one, when `last` held it, but for a friction of `holds`, N.
   double speeding_up(const Constraint& last, double slid, double holds, double mass) const;

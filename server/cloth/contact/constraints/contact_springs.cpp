@@ -49,23 +49,25 @@ Vec3 ContactConstraints<Real>::friction(const Constraint& c, const Vec3& moved) 
 template <class Real>
 Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<const Real> move,
                                        const AttachedBodies<Real>& bodies) {
-  const Vec3 moved = at(move, c.touch.node);
+  const Vec3 moved = c.point.moved_by(move);
   return c.body ? Vec3(moved - bodies.move(*c.body, c.arm)) : moved;
 }
 
 template <class Real>
-void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Components<Real> b,
-                                      AttachedBodies<Real>& bodies, const Real* diagonal,
-                                      double links_stiffness, const std::vector<double>& piece_mass,
+void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCouplings<Real>& couplings,
+                                      kernels::Components<Real> b, AttachedBodies<Real>& bodies,
+                                      const Real* diagonal, double links_stiffness,
+                                      const std::vector<double>& piece_mass,
                                       kernels::Components<const Real> move) {
   bodies.detach();
   const double inertia_rate = kPieceMultiple / (substep_.seconds * substep_.seconds);
   for (Constraint& c : constraints_) {
     if (c.released) continue;
-    const std::size_t i = c.touch.node;
-    const double links =
-        piece_mass.empty() ? links_stiffness : std::min(links_stiffness, inertia_rate * piece_mass[i]);
-    c.stiffness = kLinkMultiple * links + kInertiaMultiple * double(diagonal[i]);
+    double links = links_stiffness;
+    c.point.for_each_node([&](std::size_t i, double) {
+      if (!piece_mass.empty()) links = std::min(links, inertia_rate * piece_mass[i]);
+    });
+    c.stiffness = kLinkMultiple * links + kInertiaMultiple * c.point.resistance(diagonal);
     const Vec3 moved = move_of(c, move, bodies);
     // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
     const bool slides = c.holds < c.stiffness * c.sliding;
@@ -73,9 +75,13 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, kernels::Com
     if (slides) c.grip.setZero();
     const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
     const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + friction(c, moved);
-    add_block(blocks, i, stiffness);
-    add(b, i, force);
-    if (c.body) bodies.attach(*c.body, i, c.arm, stiffness, force);
+    if (c.touch.point().between_nodes()) {
+      couplings.add({c.point.nodes(), c.point.moves(), stiffness});
+    } else {
+      add_block(blocks, c.touch.node, stiffness);
+    }
+    c.point.add_force(b, force);
+    if (c.body) bodies.attach(*c.body, c.point, c.arm, stiffness, force);
   }
   bodies.eliminate(b);
 }
@@ -87,7 +93,7 @@ void ContactConstraints<Real>::append_springs(kernels::Components<const Real> mo
                                               std::vector<OneSidedSpring>& springs) const {
   for (const Constraint& c : constraints_) {
     if (c.pinched) continue;
-    Vec3 way = at(change, c.touch.node);
+    Vec3 way = c.point.moved_by(change);
     if (c.body) way -= bodies.change(*c.body, c.arm);
     springs.push_back(
         {c.distance - c.normal.dot(move_of(c, move, bodies)), -c.normal.dot(way), c.stiffness, !c.released});
@@ -144,16 +150,17 @@ std::vector<Solid> ContactConstraints<Real>::bent(std::vector<Solid> solids,
 template <class Real>
 void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
   for (const Constraint& c : constraints_) {
-    if (!c.released) add(velocity, c.touch.node, -c.led_out / substep_.seconds * c.normal);
+    if (!c.released) c.point.shift(velocity, -c.led_out / substep_.seconds * c.normal);
   }
 }
 
 template Vec3 ContactConstraints<float>::friction(const Constraint&, const Vec3&);
 template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Components<const float>,
                                                  const AttachedBodies<float>&);
-template void ContactConstraints<float>::add_to(kernels::Blocks<float>, kernels::Components<float>,
-                                                AttachedBodies<float>&, const float*, double,
-                                                const std::vector<double>&, kernels::Components<const float>);
+template void ContactConstraints<float>::add_to(kernels::Blocks<float>, NodeCouplings<float>&,
+                                                kernels::Components<float>, AttachedBodies<float>&,
+                                                const float*, double, const std::vector<double>&,
+                                                kernels::Components<const float>);
 template void ContactConstraints<float>::append_springs(kernels::Components<const float>,
                                                         kernels::Components<const float>,
                                                         const AttachedBodies<float>&,
@@ -169,9 +176,9 @@ template void ContactConstraints<float>::keep_velocities(kernels::Components<flo
 template Vec3 ContactConstraints<double>::friction(const Constraint&, const Vec3&);
 template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Components<const double>,
                                                   const AttachedBodies<double>&);
-template void ContactConstraints<double>::add_to(kernels::Blocks<double>, kernels::Components<double>,
-                                                 AttachedBodies<double>&, const double*, double,
-                                                 const std::vector<double>&,
+template void ContactConstraints<double>::add_to(kernels::Blocks<double>, NodeCouplings<double>&,
+                                                 kernels::Components<double>, AttachedBodies<double>&,
+                                                 const double*, double, const std::vector<double>&,
                                                  kernels::Components<const double>);
 template void ContactConstraints<double>::append_springs(kernels::Components<const double>,
                                                          kernels::Components<const double>,

@@ -184,7 +184,6 @@ Vec3 LayerContacts<Real>::slip(const Constraint& c, kernels::Components<const Re
 template <class Real>
 void LayerContacts<Real>::add_to(kernels::Components<Real> b, NodeCouplings<Real>& couplings,
                                  const Real* diagonal, kernels::Components<const Real> move) {
-  couplings.clear();
   for (Constraint& c : constraints_) {
     double share = 0;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <utility>
 
 #include "cloth/contact/recovery/node_contact.h"
 #include "cloth/core/interrupt.h"
@@ -149,10 +151,28 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     moving.push_back(
         {&solid, solid.placed(substep.to), move, sweep, fast, grazing, solid.velocity, solid.spin, substep});
   }
-  const std::vector<TileSolidPair>& pairs =
-      broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach});
+  const Sweep sweep{substep.from, substep.to, reach};
+  std::vector<TileSolidPair> pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
+  std::vector<std::size_t> may_meet;
+  const typename NodeContact<Real>::State state{particles, rounded_off, start != nullptr, not_held_,
+                                                kept_aside_};
 
   int in_contact = 0;
+  // Nodes come last: none is left inside.
+  const std::vector<NearPoint> between = points_near(particles, particles.position, pairs, solids, sweep);
+  for (auto begin = between.begin(); begin != between.end();) {
+    const PointId id = begin->point;
+    for (may_meet.clear(); begin != between.end() && begin->point == id; ++begin)
+      may_meet.push_back(begin->solid);
+    Vec3 move(0, 0, 0);
+    ClothPoint<Real>(id, particles).for_each_node([&](std::size_t i, double weight) {
+      move += weight * way.move(at(kernels::components(std::as_const(particles.position)), i), i);
+    });
+    if (NodeContact<Real>(state, id, may_meet, move).resolve(moving, touches_)) ++in_contact;
+  }
+  if (!between.empty()) pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
+  may_meet.resize(solids.size());
+  std::iota(may_meet.begin(), may_meet.end(), 0);
   for_each_struck(
       particles.position, pairs,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
@@ -160,10 +180,9 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
-        const Vec3 move = way.move(particles.local_position_at(row, col), particles.grid().index(row, col));
-        NodeContact<Real> node({particles, rounded_off, start != nullptr, not_held_, kept_aside_}, row, col,
-                               move);
-        if (node.resolve(moving, touches_)) ++in_contact;
+        const std::size_t i = particles.grid().index(row, col);
+        const Vec3 move = way.move(particles.local_position_at(row, col), i);
+        if (NodeContact<Real>(state, {i}, may_meet, move).resolve(moving, touches_)) ++in_contact;
       });
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (moving[i].velocity == solids[i].velocity && moving[i].spin == solids[i].spin) continue;
@@ -207,8 +226,10 @@ template <class Real>
 void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
                                 const std::vector<Solid>& solids, const Substep& substep,
                                 bool (*sought)(const Solid&), std::vector<Touch>& found) {
+  const Sweep sweep{substep.to, substep.to, 0};
+  const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(position, solids, sweep);
   for_each_struck(
-      position, broad_phase_.find_pairs(position, solids, {substep.to, substep.to, 0}),
+      position, pairs,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
         return sought(solid) ? rows_inside(block, solid.placed(substep.to)) : std::uint32_t{0};
@@ -222,6 +243,12 @@ void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorFi
           found.push_back({particles.grid().index(row, col), solid.id});
         }
       });
+  for (const NearPoint& near : points_near(particles, position, pairs, solids, sweep)) {
+    const Solid& solid = solids[near.solid];
+    const Vec3 place = ClothPoint<Real>(near.point, particles).of(kernels::components(position));
+    if (!sought(solid) || !solid.placed(substep.to).contains(place)) continue;
+    found.push_back({near.point.node, solid.id, near.point.within});
+  }
   check_interrupt(kWorkOfContact * static_cast<double>(found.size()));
 }
 
@@ -235,9 +262,23 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
   const double reach =
       h * std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
+  const Sweep sweep{substep.from, substep.to, reach};
+  const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
+  const auto look = [&](const PointId& id, const Vec3& place, const Vec3& way, std::size_t i) {
+    const Solid& solid = solids[i];
+    // As seen from the solid where it will be.
+    Vec3 begin = place + solid.at(substep.to) - solid.at(substep.from);
+    if (solid.turns()) begin = place + solid.move_of(place, substep.from, substep.to);
+    const Vec3 end = place + way;
+    const PlacedShape shape = solid.placed(substep.to);
+    const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
+    if (!hit) return;
+    const double inward = (end - begin).dot(hit->normal);
+    arrivals_.push_back(
+        {{id.node, solid.id, id.within}, i, {(1 - hit->fraction) * inward, hit->normal}, -inward / h});
+  };
   for_each_struck(
-      particles.position,
-      broad_phase_.find_pairs(particles.position, solids, {substep.from, substep.to, reach}),
+      particles.position, pairs,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
         if (!sought(solid)) return std::uint32_t{0};
@@ -251,31 +292,23 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
-        const Vec3 place = particles.local_position_at(row, col);
+        const Vec3 place = particles.local_position_at(row, col), way = h * particles.velocity_at(row, col);
         for (std::size_t i = 0; i < solids.size(); ++i) {
-          if (!sought(solids[i])) continue;
-          // As seen from the solid where it will be.
-          Vec3 begin = place + solids[i].at(substep.to) - solids[i].at(substep.from);
-          if (solids[i].turns()) begin = place + solids[i].move_of(place, substep.from, substep.to);
-          const Vec3 end = place + h * particles.velocity_at(row, col);
-          const PlacedShape shape = solids[i].placed(substep.to);
-          const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
-          if (!hit) continue;
-          const double way = (end - begin).dot(hit->normal);
-          arrivals_.push_back({{particles.grid().index(row, col), solids[i].id},
-                               i,
-                               {(1 - hit->fraction) * way, hit->normal},
-                               -way / h});
+          if (sought(solids[i])) look({particles.grid().index(row, col)}, place, way, i);
         }
       });
+  for (const NearPoint& near : points_near(particles, particles.position, pairs, solids, sweep)) {
+    if (!sought(solids[near.solid])) continue;
+    const ClothPoint<Real> point(near.point, particles);
+    look(near.point, point.of(kernels::components(particles.position)), h * point.of(velocity), near.solid);
+  }
   return arrivals_;
 }
 
 template <class Real>
-std::vector<std::pair<std::size_t, std::size_t>> Contact<Real>::pinned_near(const Particles<Real>& particles,
-                                                                            const std::vector<Solid>& solids,
-                                                                            double longest) {
-  std::vector<std::pair<std::size_t, std::size_t>> found;
+std::vector<NearPoint> Contact<Real>::pinned_near(const Particles<Real>& particles,
+                                                  const std::vector<Solid>& solids, double longest) {
+  std::vector<NearPoint> found;
   // What comes nearer than half a body's width may be hit when something bends its way.
   double reach = 0;
   for (const Solid& solid : solids) {
@@ -283,22 +316,28 @@ std::vector<std::pair<std::size_t, std::size_t>> Contact<Real>::pinned_near(cons
   }
   if (reach == 0) return found;
   const Substep step;
+  const Sweep sweep{step.from, step.to, reach};
+  const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
   for_each_struck(
-      particles.position, broad_phase_.find_pairs(particles.position, solids, {step.from, step.to, reach}),
+      particles.position, pairs,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
         return solid.yields() ? rows_near_way(block, solid, step, reach) : std::uint32_t{0};
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) != Real(0)) return;
-        const Vec3 place = particles.position_at(row, col);
+        const Vec3 place = particles.local_position_at(row, col);
         for (std::size_t i = 0; i < solids.size(); ++i) {
           if (!solids[i].yields()) continue;
           const double way = (solids[i].at(step.to) - solids[i].at(step.from)).norm();
           if ((place - solids[i].at(step.to)).norm() > outer_radius(solids[i].shape) + way + reach) continue;
-          found.emplace_back(particles.grid().index(row, col), i);
+          found.push_back({{particles.grid().index(row, col)}, i});
         }
       });
+  for (const NearPoint& near :
+       points_near(particles, particles.position, pairs, solids, sweep, PointHold::pinned)) {
+    if (solids[near.solid].yields()) found.push_back(near);
+  }
   return found;
 }
 

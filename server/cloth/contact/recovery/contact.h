@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 #include <tuple>
-#include <utility>
+#include <vector>
 
-#include "cloth/contact/search/broad_phase.h"
+#include "cloth/contact/search/points_between.h"
 
 namespace weft {
 
@@ -11,8 +11,8 @@ namespace weft {
 struct ContactCounters {
   std::uint64_t tiles_examined = 0;  ///< tiles whose nodes were tested against a solid
   std::uint64_t nodes_tested = 0;
-  std::uint64_t nodes_in_contact = 0;  ///< nodes found inside a solid, or on a way through, and brought out,
-                                       ///< or kept there
+  std::uint64_t nodes_in_contact = 0;  ///< nodes, and points between, found inside a solid or on a way
+                                       ///< through, and brought out, or kept there
 
   friend ContactCounters operator+(const ContactCounters& a, const ContactCounters& b) {
     return {a.tiles_examined + b.tiles_examined, a.nodes_tested + b.nodes_tested,
@@ -33,18 +33,20 @@ struct Substep {
   }
 };
 
-/// A node on a solid.
+/// A node, or a point between nodes, on a solid.
 struct Touch {
   std::size_t node = 0;  ///< index into the grid's arrays
   ColliderId collider = 0;
+  std::uint8_t within = 0;  ///< PointId's
 
+  PointId point() const { return {node, within}; }
   friend bool operator==(const Touch&, const Touch&) = default;
   friend bool operator<(const Touch& a, const Touch& b) {
-    return std::tie(a.node, a.collider) < std::tie(b.node, b.collider);
+    return std::tuple(a.point(), a.collider) < std::tuple(b.point(), b.collider);
   }
 };
 
-/// A node on its way into a solid.
+/// A node, or a point between nodes, on its way into a solid.
 struct Arrival {
   Touch touch;
   std::size_t solid = 0;  ///< index
@@ -61,6 +63,8 @@ struct Arrival {
 /// velocity along the normal, as bodies of their masses that hit plastically, so that it keeps their momentum
 /// and never adds energy, whichever is the heavier.
 ///
+/// A solid that would slip between the nodes meets points between them as well (points_between).
+///
 /// Where nodes and a solid approach by more than a part of its width in a substep, their ways are compared
 /// instead of their last places (continuous collision): a node goes on from where it met the surface, with
 /// the solid, and slides.
@@ -68,6 +72,11 @@ template <class Real>
 class Contact {
  public:
   explicit Contact(const Grid& grid) : broad_phase_(grid) {}
+  /// What is cut of the cloth, which keeps it; nullptr while it is whole. Holes catch nothing.
+  void set_torn(const TornLinks* torn) {
+    if (torn_ != torn) std::erase_if(touches_, [](const Touch& t) { return t.point().between_nodes(); });
+    torn_ = torn;
+  }
 
   /// Resolves the contacts at a substep's end, from which on solids that yield have the velocity that their
   /// momentum gives. `start` holds the nodes' places at its start, if the integrator has had friction bear on
@@ -91,11 +100,10 @@ class Contact {
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
       bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
 
-  /// Before a step: the pinned nodes that a solid which yields may come to in it, going no farther than it
-  /// does now, if no pin goes farther than `longest`, m; by node. Solids are told by their indices.
-  std::vector<std::pair<std::size_t, std::size_t>> pinned_near(const Particles<Real>& particles,
-                                                               const std::vector<Solid>& solids,
-                                                               double longest);
+  /// Before a step: the pinned nodes, and points between such, that a solid which yields may come to in it,
+  /// going no farther than it does now, if no pin goes farther than `longest`, m; by point.
+  std::vector<NearPoint> pinned_near(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                     double longest);
 
   /// Before resolve: these lay on a solid when the substep began, and neither the ways they had nor a
   /// constraint holds them to it; ordered. Those that forces have drawn past it and away have slid off
@@ -134,7 +142,16 @@ class Contact {
                    const std::vector<Solid>& solids, const Substep& substep, bool (*sought)(const Solid&),
                    std::vector<Touch>& found);
 
+  /// Those between nodes that are near the last pairs' solids (points_between).
+  std::vector<NearPoint> points_near(const Particles<Real>& particles, const VectorField<Real>& position,
+                                     const std::vector<TileSolidPair>& pairs,
+                                     const std::vector<Solid>& solids, const Sweep& sweep,
+                                     PointHold hold = PointHold::free) const {
+    return points_between(particles, position, broad_phase_.tiles(), pairs, solids, sweep, torn_, hold);
+  }
+
   BroadPhase<Real> broad_phase_;
+  const TornLinks* torn_ = nullptr;
   ContactCounters counters_;
   std::vector<Touch> touches_, inside_, not_held_, kept_aside_;
   std::vector<Arrival> arrivals_;

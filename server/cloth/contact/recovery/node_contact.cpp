@@ -24,10 +24,10 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
   std::vector<Found> found;  // one entry a solid
   for (int round = 0; round < kProjections; ++round) {
     bool moved = false;
-    for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (const std::size_t i : may_meet_) {
       MovingSolid& moving = solids[i];
       if (!moving.shape.contains(position_)) continue;
-      const Surface surface = moving.shape.surface(position_);
+      const Surface surface = way_out_of(moving.shape, id_, position_, particles_.position);
       const double held = lose_velocity(moving, surface.normal);
       put_on(moving, surface);
       const double most = slip_is_left_ ? -moving.solid->friction * surface.distance
@@ -35,9 +35,9 @@ bool NodeContact<Real>::resolve(std::vector<MovingSolid>& solids, std::vector<To
       if (held > 0) slide_back(moving, held, most);
       moved = met = true;
       if (round == 0) touches.push_back(touch(*moving.solid));
-      if (solids.size() > 1) note(found, i, surface.normal);
+      if (may_meet_.size() > 1) note(found, i, surface.normal);
     }
-    if (!moved || solids.size() == 1) return met;  // outside the only solid there is
+    if (!moved || may_meet_.size() == 1) return met;  // outside the only solid there is
   }
   if (const std::optional<std::size_t> still = pinching(found, solids, came)) {
     touches.resize(touches_before);
@@ -88,7 +88,7 @@ template <class Real>
 void NodeContact<Real>::hold_at(MovingSolid& still) {
   const Surface surface = still.shape.surface(position_);
   put_on(still, surface);
-  part_with(particles_.velocity_at(row_, col_) - still.velocity_at(position_), still);
+  part_with(velocity() - still.velocity_at(position_), still);
   set_velocity(still.velocity_at(position_));
 }
 
@@ -124,7 +124,7 @@ template <class Real>
 bool NodeContact<Real>::stop_at_first(std::vector<MovingSolid>& solids, std::vector<Touch>& touches) {
   std::optional<Meeting> first;
   std::size_t which = 0;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
+  for (const std::size_t i : may_meet_) {
     if (!solids[i].fast) continue;
     if (std::binary_search(kept_aside_.begin(), kept_aside_.end(), touch(*solids[i].solid))) continue;
     const std::optional<Meeting> meeting = first_meeting(solids[i]);
@@ -168,8 +168,7 @@ void NodeContact<Real>::slide_back(const MovingSolid& moving, double share, doub
 /// takes of the rest. Returns the share of the node's slide that this takes.
 template <class Real>
 double NodeContact<Real>::lose_velocity(MovingSolid& moving, const Vec3& normal) {
-  const Vec3 velocity = particles_.velocity_at(row_, col_);
-  const Vec3 relative = velocity - moving.velocity_at(position_);
+  const Vec3 velocity = this->velocity(), relative = velocity - moving.velocity_at(position_);
   const double inward = relative.dot(normal);
   if (!(inward < 0)) return 0;
   const Vec3 stopped = inward * normal, sliding = relative - stopped;
@@ -189,7 +188,7 @@ template <class Real>
 double NodeContact<Real>::part_with(const Vec3& lost, MovingSolid& moving) {
   const Solid& solid = *moving.solid;
   if (!solid.yields()) return 1;
-  const double mass = double(particles_.mass.at(row_, col_)), ratio = mass * solid.inverse_mass;
+  const double mass = point_.mass(), ratio = mass * solid.inverse_mass;
   if (!solid.yields_turning()) {
     const double share = 1 / (1 + ratio);
     moving.velocity += ratio * share * lost;
@@ -208,7 +207,8 @@ template <class Real>
 void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found) {
   Vec3 direction(0, 0, 0);
   for (const Found& each : found) direction += each.normal;
-  for (const MovingSolid& moving : solids) {
+  for (const std::size_t i : may_meet_) {
+    const MovingSolid& moving = solids[i];
     if (!std::holds_alternative<HalfSpace>(moving.shape.shape)) continue;
     const Surface surface = moving.shape.surface(position_);
     direction -= std::min(0.0, direction.dot(surface.normal)) * surface.normal;
@@ -218,7 +218,8 @@ void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const s
   direction = direction.norm() < kNoDirection ? Vec3(0, 1, 0) : direction.normalized();
   for (bool moved = true; moved;) {
     moved = false;
-    for (const MovingSolid& moving : solids) {
+    for (const std::size_t i : may_meet_) {
+      const MovingSolid& moving = solids[i];
       if (!moving.shape.contains(position_)) continue;
       const double way = moving.shape.way_out(position_, direction);
       if (!std::isfinite(way)) continue;  // rounding put it back: the next step's projections lift it
@@ -232,7 +233,8 @@ void NodeContact<Real>::lead_out(const std::vector<MovingSolid>& solids, const s
 template <class Real>
 void NodeContact<Real>::put_on(const MovingSolid& moving, const Surface& surface) {
   const PlacedShape& shape = moving.shape;
-  if (const auto* sphere = std::get_if<Sphere>(&shape.shape)) {
+  const auto* sphere = std::get_if<Sphere>(&shape.shape);
+  if (sphere != nullptr && !id_.between_nodes()) {
     put_outside(shape, shape.centre, surface.normal, sphere->radius);
   } else {
     put_outside(shape, position_, surface.normal, -surface.distance);
@@ -255,22 +257,24 @@ void NodeContact<Real>::put_outside(const PlacedShape& shape, const Vec3& from, 
 
 template <class Real>
 void NodeContact<Real>::set_position(const Vec3& target) {
-  particles_.position.x.at(row_, col_) = static_cast<Real>(target.x());
-  particles_.position.y.at(row_, col_) = static_cast<Real>(target.y());
-  particles_.position.z.at(row_, col_) = static_cast<Real>(target.z());
-  position_ = particles_.local_position_at(row_, col_);
-  if (rounded_off_ == nullptr) return;
-  const Vec3 rest = target - position_;
-  rounded_off_->x.at(row_, col_) = static_cast<Real>(rest.x());
-  rounded_off_->y.at(row_, col_) = static_cast<Real>(rest.y());
-  rounded_off_->z.at(row_, col_) = static_cast<Real>(rest.z());
+  const Vec3 change = target - position_;
+  point_.for_each_gain([&](std::size_t node, double gain) {
+    const Vec3 place = at(kernels::components(std::as_const(particles_.position)), node);
+    const Vec3 wanted = id_.between_nodes() ? Vec3(place + gain * change) : target;
+    set(particles_.position, node, wanted);
+    if (rounded_off_ == nullptr) return;
+    set(*rounded_off_, node, wanted - at(kernels::components(std::as_const(particles_.position)), node));
+  });
+  position_ = point_.of(kernels::components(std::as_const(particles_.position)));
 }
 
 template <class Real>
 void NodeContact<Real>::set_velocity(const Vec3& velocity) {
-  particles_.velocity.x.at(row_, col_) = static_cast<Real>(velocity.x());
-  particles_.velocity.y.at(row_, col_) = static_cast<Real>(velocity.y());
-  particles_.velocity.z.at(row_, col_) = static_cast<Real>(velocity.z());
+  if (id_.between_nodes()) {
+    point_.shift(kernels::components(particles_.velocity), velocity - this->velocity());
+  } else {
+    set(particles_.velocity, id_.node, velocity);
+  }
 }
 
 template class NodeContact<float>;

@@ -1,6 +1,8 @@
 #pragma once
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cloth/contact/recovery/contact.h"
@@ -42,7 +44,8 @@ struct MovingSolid {
   }
 };
 
-/// One free node while its contacts in a substep are resolved.
+/// One free node, or a point between nodes, while its contacts in a substep are resolved. What moves a point
+/// moves its nodes (ClothPoint).
 template <class Real>
 class NodeContact {
  public:
@@ -55,13 +58,14 @@ class NodeContact {
     const std::vector<Touch>& not_held;    ///< to what it lay on (Contact::let_slide_off)
     const std::vector<Touch>& kept_aside;  ///< Contact::trust
   };
-  /// `move` is the node's in the substep.
-  NodeContact(const State& state, int row, int col, const Vec3& move)
+  /// It may meet the solids with these indices, ascending; `move` is its own in the substep.
+  NodeContact(const State& state, const PointId& id, std::span<const std::size_t> may_meet, const Vec3& move)
       : particles_(state.particles),
         rounded_off_(state.rounded_off),
-        row_(row),
-        col_(col),
-        position_(state.particles.local_position_at(row, col)),
+        id_(id),
+        point_(id, state.particles),
+        may_meet_(may_meet),
+        position_(point_.of(kernels::components(std::as_const(state.particles.position)))),
         start_(position_ - move),
         move_(move),
         slip_is_left_(state.slip_is_left),
@@ -74,6 +78,7 @@ class NodeContact {
   bool resolve(std::vector<MovingSolid>& solids, std::vector<Touch>& touches);
 
  private:
+  Vec3 velocity() const { return point_.of(kernels::components(std::as_const(particles_.velocity))); }
   /// Of the node's way and a solid.
   struct Meeting {
     double fraction;  ///< of the way
@@ -98,13 +103,18 @@ class NodeContact {
   void put_on(const MovingSolid& moving, const Surface& surface);
   void put_outside(const PlacedShape& shape, const Vec3& from, const Vec3& direction, double distance);
   void lead_out(const std::vector<MovingSolid>& solids, const std::vector<Found>& found);
+  static void set(VectorField<Real>& field, std::size_t node, const Vec3& value) {
+    weft::set(kernels::components(field), node, value);
+  }
   void set_position(const Vec3& target);
   void set_velocity(const Vec3& velocity);
-  Touch touch(const Solid& solid) const { return {particles_.grid().index(row_, col_), solid.id}; }
+  Touch touch(const Solid& solid) const { return {id_.node, solid.id, id_.within}; }
 
   Particles<Real>& particles_;
   VectorField<Real>* rounded_off_;
-  int row_, col_;
+  PointId id_;
+  ClothPoint<Real> point_;
+  std::span<const std::size_t> may_meet_;
   Vec3 position_, start_, move_;
   bool slip_is_left_;
   const std::vector<Touch>&not_held_, &kept_aside_;

@@ -4,6 +4,7 @@
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
+#include "loose_contact.h"
 
 namespace weft {
 namespace {
@@ -47,7 +48,7 @@ TYPED_TEST(ContinuousContact, ABallOf200MetresASecondCarriesEveryNodeInItsWay) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});
   const Particles<TypeParam> before = sheet;
   std::vector<Solid> solids{moving_ball(kRadius, {0.02, 0.03, -1.7}, {0, 0, 200})};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   contact.resolve(sheet, solids, {0, 1, kFrame});
   int carried = 0;
   each_node(sheet.grid(), [&](int r, int c) {
@@ -84,7 +85,7 @@ TYPED_TEST(ContinuousContact, WhatSlidOffIsNotStopped) {
     set(sheet.position, 1, 1, end);
     set(sheet.velocity, 1, 1, (end - lay) / kFrame);
     std::vector<Solid> solids{moving_ball(kRadius, {0, 0, 0}, {0, 0, 0})};
-    Contact<TypeParam> contact(sheet.grid());
+    test::LooseContact<TypeParam> contact(sheet.grid());
     const std::vector<Touch> not_held{{sheet.grid().index(1, 1), solids[0].id}};
     if (free) contact.let_slide_off(not_held);
     contact.resolve(sheet, solids, {0, 1, kFrame}, &start);
@@ -109,7 +110,7 @@ TYPED_TEST(ContinuousContact, FrictionTakesThemAlong) {
   const Particles<TypeParam> before = sheet;
   std::vector<Solid> solids{moving_ball(kRadius, {0, 0, -1.7}, {0, 0, 200})};
   solids[0].friction = 1e6;
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   contact.resolve(sheet, solids, {0, 1, kFrame});
   each_node(sheet.grid(), [&](int r, int c) {
     const Vec3 place = before.position_at(r, c);
@@ -131,7 +132,7 @@ TYPED_TEST(ContinuousContact, ANodeShotThroughABoardStopsAtIt) {
   board.id = kFirstObstacle;
   board.shape = Box{{0.5, 0.01, 0.5}};
   std::vector<Solid> solids{board};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   contact.resolve(sheet, solids, {0, 1, kFrame});
   // It keeps its 3 m/s along the board.
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.01, 0.2)).norm(), this->kRounding);
@@ -150,7 +151,7 @@ TYPED_TEST(ContinuousContact, ARailHoldsWhatIsInItAndWhatIsShotThroughIt) {
   rail.shape = Capsule{0.42, 0.03};
   rail.rotation = Eigen::AngleAxisd(-std::acos(-1.0) / 2, Vec3::UnitZ()).toRotationMatrix();  // y to x
   std::vector<Solid> solids{rail};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 2);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.03, 0)).norm(), this->kRounding);
   EXPECT_LT((sheet.position_at(2, 4) - Vec3(0.4, 0.03, 0)).norm(), this->kRounding);
@@ -165,7 +166,7 @@ TYPED_TEST(ContinuousContact, WaysAreTakenFromTheStartsWhereTheyAreGiven) {
   set(start, 4, 4, {0, 0, 2});
   set(sheet.position, 4, 4, {0, 0, -2});
   std::vector<Solid> solids{moving_ball(0.5, {0, 0, 0}, {0, 0, 0})};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}, &start), 1);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0, 0, 0.5)).norm(), this->kRounding);
 }
@@ -177,7 +178,7 @@ TYPED_TEST(ContinuousContact, WhatFliesTogetherDoesNotMeet) {
   const Particles<TypeParam> before = sheet;
   const double last = -100 * kFrame - 0.3;
   std::vector<Solid> solids{moving_ball(0.2, {0, 0, last}, {0, 0, 100})};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 0);
   EXPECT_TRUE(test::same_state(sheet, before));
 }
@@ -186,7 +187,7 @@ TYPED_TEST(ContinuousContact, AFloorHoldsEveryNode) {
   Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(33, 33, {2, 2});  // upright, y from -1 to 1
   each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {2, -1, 0}); });
   std::vector<Solid> solids{floor_at(-0.5, 0.25)};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 8 * 33);  // rows below: (33 - 1) / 4
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_GE(sheet.position_at(r, c).y(), -0.5);
@@ -208,7 +209,7 @@ TYPED_TEST(ContinuousContact, ANodePinchedBetweenBallAndFloorStaysOnTheFloor) {
   });
   const Vec3 down(0, -1, 0);
   std::vector<Solid> solids{moving_ball(0.3, Vec3(0.01, 0.25, 0.02) - kFrame * down, down), floor_at(0)};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   contact.resolve(sheet, solids, {0, 1, kFrame});
   int pinched = 0;
   each_node(sheet.grid(), [&](int r, int c) {

@@ -10,6 +10,7 @@
 #include "cloth/world/simulation.h"
 #include "cloth/world/state_hash.h"
 #include "fixtures.h"
+#include "loose_contact.h"
 #include "meshes.h"
 #include "swept_sheet.h"
 
@@ -51,7 +52,7 @@ TYPED_TEST(MeshContact, ANodeShotThroughABoardStopsAtIt) {
   set(sheet.position, 4, 4, {0.1, 0.5 - 100 * kFrame, 0.2});
   set(sheet.velocity, 4, 4, {3, -100, 0});
   std::vector<Solid> solids{solid_of(Mesh{&surface})};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 1);
   EXPECT_LT((sheet.position_at(4, 4) - Vec3(0.1, 0.01, 0.2)).norm(), this->kRounding);
   EXPECT_LT((sheet.velocity_at(4, 4) - Vec3(3, 0, 0)).norm(), 100 * this->kRounding);
@@ -76,7 +77,7 @@ TYPED_TEST(MeshContact, NodesShotAtATorusFromEverywhereStayOutside) {
   const Particles<TypeParam> aimed = sheet;
   std::vector<Solid> solids{solid_of(Mesh{&surface})};
   solids[0].friction = 1e6;  // nothing slides
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   each_node(sheet.grid(), [&](int r, int c) {
     const Vec3 way = sheet.position_at(r, c) - test::get(start, r, c);
     set(sheet.velocity, r, c, way / kFrame);
@@ -112,7 +113,7 @@ TYPED_TEST(MeshContact, AThinFinHoldsSlowNodes) {
   set(sheet.position, 4, 4, {0.1, 0.001 - 0.1 * kFrame, 0.2});
   set(sheet.velocity, 4, 4, {0, -0.1, 0});
   std::vector<Solid> solids{solid_of(Mesh{&surface})};
-  Contact<TypeParam> contact(sheet.grid());
+  test::LooseContact<TypeParam> contact(sheet.grid());
   EXPECT_EQ(contact.resolve(sheet, solids, {0, 1, kFrame}), 1);
   EXPECT_NEAR(sheet.position_at(4, 4).y(), 0.00005, this->kRounding);
 }

@@ -206,7 +206,7 @@ TEST(Place, ABodyPutOntoItIsLetOut) {
   const auto put = [](Simulation<float>& simulation, const Vec3& at, int step) {
     BallDescription ball;
     ball.position = at + Vec3(0, 0, 0.02);
-    ball.radius = 0.1;
+    ball.radius = 0.2;
     if (step == 3) simulation.add_ball(ball);
   };
   EXPECT_LT(stray(hung, 20, put), kTolerance);

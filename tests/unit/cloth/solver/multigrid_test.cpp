@@ -66,8 +66,9 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
     assemble(position);
   }
 
-  /// Each hangs on a patch of 4 x 4 nodes that overlaps with the one before; the first is light and hangs by
-  /// its centre, the next ones are heavy and hang by arms of up to half a metre, so that they turn.
+  /// Each hangs on a patch of 4 x 4 nodes that overlaps with the one before, and on a point between four of
+  /// them; the first is light and hangs by its centre, the next ones are heavy and hang by arms of up to half
+  /// a metre, so that they turn.
   template <class Random>
   void attach_bodies(Random& random) {
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -88,19 +89,40 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       own_.block<3, 3>(6 * body, 6 * body) += inertia * Eigen::Matrix3d::Identity();
       own_.block<3, 3>(6 * body + 3, 6 * body + 3) += turning;
     }
+    Particles<double> particles(grid_);
+    particles.mass.fill(1);
+    particles.inverse_mass.fill(1);
+    between_ = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
     bodies.detach();
     for (int body = 0; body < GetParam().bodies; ++body) {
-      for (int node = 0; node < 16; ++node) {
-        const int r = 3 + node / 4, c = 4 + 2 * body + node % 4;
+      for (int spring = 0; spring < 17; ++spring) {
+        const bool between = spring == 16;
+        const int r = 3 + spring % 16 / 4, c = 4 + 2 * body + spring % 4;
+        const PointId id{grid_.index(r, c), static_cast<std::uint8_t>(between ? 2 * kCellParts + 5 : 0)};
+        const ClothPoint<double> point(id, particles);
         const Vec3 n = vector().normalized(), force = vector();
         const Eigen::Matrix3d k = 80 * n * n.transpose() + 20 * Eigen::Matrix3d::Identity();
         const Vec3 arm = body == 0 ? Vec3(0, 0, 0) : Vec3(0.5 * vector());
-        bodies.attach(body, grid_.index(r, c), arm, k, force);
-        Eigen::Matrix<double, 3, 6> point;  // of what is there: shift + turn x arm
-        point << Eigen::Matrix3d::Identity(), turn_to_move(arm);
-        coupling_.block<6, 3>(6 * body, 3 * (r * grid_.cols + c)) += point.transpose() * k;
-        own_.block<6, 6>(6 * body, 6 * body) += point.transpose() * k * point;
-        pull_.segment<6>(6 * body) -= point.transpose() * force;
+        bodies.attach(body, point, arm, k, force);
+        Eigen::Matrix<double, 3, 6> moves;  // of what is there: shift + turn x arm
+        moves << Eigen::Matrix3d::Identity(), turn_to_move(arm);
+        own_.block<6, 6>(6 * body, 6 * body) += moves.transpose() * k * moves;
+        pull_.segment<6>(6 * body) -= moves.transpose() * force;
+        // (1 - u)(1 - v) and so on, at u = 5/8 and v = 2/8 of the cell.
+        Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(3, unknowns_);
+        const auto weigh = [&](int row, int col, double w) {
+          weights.middleCols<3>(3 * (row * grid_.cols + col)) = w * Eigen::Matrix3d::Identity();
+        };
+        weigh(r, c, between ? 0.375 * 0.75 : 1);
+        if (between) {
+          weigh(r, c + 1, 0.625 * 0.75);
+          weigh(r + 1, c, 0.375 * 0.25);
+          weigh(r + 1, c + 1, 0.625 * 0.25);
+          between_ += weights.transpose() * k * weights;
+          system_.couplings().add({point.nodes(), point.moves(), k});
+        }
+        coupling_.middleRows<6>(6 * body) += moves.transpose() * k * weights;
+        if (between) continue;
         const auto& blocks = system_.finest().matrix.blocks;
         const std::size_t i = grid_.index(r, c);
         blocks.xx[i] += k(0, 0);
@@ -176,6 +198,7 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
       dense.middleRows(k, 3).setZero();
       dense.middleCols(k, 3).setZero();
     });
+    if (GetParam().bodies > 0) dense += between_;
     nodes_alone_ = reference_ = dense;
     if (GetParam().bodies > 0) reference_ -= coupling_.transpose() * own_.inverse() * coupling_;
   }
@@ -223,6 +246,7 @@ class LinearSystem : public ::testing::TestWithParam<Case> {
   Eigen::MatrixXd reference_;                     ///< of the nodes, the bodies eliminated
   Eigen::MatrixXd nodes_alone_, coupling_, own_;  ///< the whole: [nodes_alone, -coupling^T; -coupling, own]
   Eigen::VectorXd pull_;                          ///< on the bodies
+  Eigen::MatrixXd between_;                       ///< of the points between nodes
 };
 
 TEST_P(LinearSystem, MatrixIsTheSpringsOwn) {

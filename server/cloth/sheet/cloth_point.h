@@ -1,0 +1,118 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "cloth/core/particles.h"
+#include "cloth/kernels/node_vector.h"
+
+namespace weft {
+
+/// Points that lie in a cell are told by their row and column among so many a side.
+inline constexpr int kCellParts = 8;
+
+/// Names a node, or a point of the cell that begins at it.
+struct PointId {
+  std::size_t node = 0;  ///< index into the grid's arrays
+  /// Row * kCellParts + column within the cell, counted along v and along u; 0: the node itself.
+  std::uint8_t within = 0;
+
+  bool between_nodes() const { return within != 0; }
+  friend bool operator==(const PointId&, const PointId&) = default;
+  friend auto operator<=>(const PointId&, const PointId&) = default;
+};
+
+/// A node, or a point between two or four: its place is bilinear in theirs, and what happens to it happens to
+/// them by their shares. A force at it acts on each node by its weight; an impulse moves each by its weight
+/// and its inverse mass, so that the point finds the mass 1 / sum(weight^2 / mass).
+template <class Real>
+class ClothPoint {
+ public:
+  ClothPoint(const PointId& id, const Particles<Real>& particles) {
+    const Real* inverse_mass = particles.inverse_mass.row(0);
+    node_[0] = id.node;
+    if (!id.between_nodes()) {
+      moves_[0] = 1;
+      mass_ = double(particles.mass.row(0)[id.node]);
+      return;
+    }
+    const auto stride = static_cast<std::size_t>(particles.grid().stride);
+    const double v = double(id.within / kCellParts) / kCellParts;
+    const double u = double(id.within % kCellParts) / kCellParts;
+    count_ = 0;
+    add_node(id.node, (1 - u) * (1 - v));
+    if (u > 0) add_node(id.node + 1, u * (1 - v));
+    if (v > 0) add_node(id.node + stride, (1 - u) * v);
+    if (u > 0 && v > 0) add_node(id.node + stride + 1, u * v);
+    double mobility = 0;  // 1/kg
+    for (std::size_t k = 0; k < count_; ++k) {
+      const auto inverse = double(inverse_mass[node_[k]]);
+      moves_[k] = inverse > 0 ? weight_[k] : 0;
+      gain_[k] = moves_[k] * inverse;
+      mobility += moves_[k] * gain_[k];
+    }
+    for (std::size_t k = 0; k < count_ && mobility > 0; ++k) gain_[k] /= mobility;
+    mass_ = mobility > 0 ? 1 / mobility : 0;
+  }
+
+  /// Of a field of places or velocities that pinned nodes have as well.
+  Vec3 of(const kernels::Components<const Real>& field) const { return sum(field, weight_); }
+  /// Of a field of moves that pinned nodes have not.
+  Vec3 moved_by(const kernels::Components<const Real>& field) const { return sum(field, moves_); }
+  /// Adds to the nodes' forces what a force at the point is to them.
+  void add_force(const kernels::Components<Real>& field, const Vec3& force) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (moves_[k] > 0) add(field, node_[k], moves_[k] * force);
+    }
+  }
+  /// Changes a field of the free nodes so that the point's value changes by so much, as an impulse does.
+  void shift(const kernels::Components<Real>& field, const Vec3& change) const {
+    for_each_gain([&](std::size_t node, double gain) { add(field, node, gain * change); });
+  }
+  /// That an impulse finds, kg; of a pinned node its own, of a point whose nodes are all pinned 0.
+  double mass() const { return mass_; }
+  /// That a force finds where each node resists by its own in `diagonal`, N/m.
+  double resistance(const Real* diagonal) const {
+    if (count_ == 1) return double(diagonal[node_[0]]);
+    double mobility = 0;
+    for (std::size_t k = 0; k < count_; ++k) mobility += moves_[k] * moves_[k] / double(diagonal[node_[k]]);
+    return 1 / mobility;
+  }
+  /// The part of it that hangs on free nodes, 0 to 1.
+  double free_part() const { return moves_[0] + moves_[1] + moves_[2] + moves_[3]; }
+
+  /// Calls visit(node index, weight) for each of its nodes.
+  template <class Visit>
+  void for_each_node(Visit visit) const {
+    for (std::size_t k = 0; k < count_; ++k) visit(node_[k], weight_[k]);
+  }
+  /// Calls visit(node index, what the node moves by when an impulse moves the point by 1) for its free nodes,
+  /// and for a pinned node that is the point itself.
+  template <class Visit>
+  void for_each_gain(Visit visit) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (gain_[k] > 0) visit(node_[k], gain_[k]);
+    }
+  }
+  const std::array<std::size_t, 4>& nodes() const { return node_; }
+  /// The weights of free nodes; 0 for all else.
+  const std::array<double, 4>& moves() const { return moves_; }
+
+ private:
+  void add_node(std::size_t node, double weight) {
+    node_[count_] = node;
+    weight_[count_++] = weight;
+  }
+  Vec3 sum(const kernels::Components<const Real>& field, const std::array<double, 4>& weight) const {
+    if (count_ == 1) return at(field, node_[0]);
+    Vec3 total(0, 0, 0);
+    for (std::size_t k = 0; k < count_; ++k) total += weight[k] * at(field, node_[k]);
+    return total;
+  }
+
+  std::size_t count_ = 1;
+  std::array<std::size_t, 4> node_{};
+  std::array<double, 4> weight_{1, 0, 0, 0}, moves_{}, gain_{1, 0, 0, 0};
+  double mass_ = 0;  ///< kg
+};
+
+}  // namespace weft
