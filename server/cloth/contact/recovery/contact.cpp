@@ -135,7 +135,7 @@ template <class Real>
 int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solids, const Substep& substep,
                            const VectorField<Real>* start, VectorField<Real>* rounded_off) {
   touches_.clear();
-  const auto way = Way<Real>::of(particles, start, substep.seconds);
+  auto way = Way<Real>::of(particles, start, substep.seconds);
   const double longest = way.longest(particles);
   std::vector<MovingSolid> moving;
   moving.reserve(solids.size());
@@ -158,8 +158,16 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
                                                 kept_aside_};
 
   int in_contact = 0;
-  // Nodes come last: none is left inside.
+  // Nodes come last: none is left inside. What moves points moves them: their ways begin where they did.
   const std::vector<NearPoint> between = points_near(particles, particles.position, pairs, solids, sweep);
+  // A node that its cell's points take along goes farther than its motion says.
+  for (const NearPoint& near : between) moving[near.solid].fast = true;
+  if (!between.empty() && start == nullptr) {
+    began_ = particles.position;
+    kernels::add_scaled(kernels::components(began_), kernels::components(std::as_const(particles.velocity)),
+                        static_cast<Real>(-substep.seconds), particles.grid().size());
+    way = Way<Real>::of(particles, &began_, substep.seconds);
+  }
   for (auto begin = between.begin(); begin != between.end();) {
     const PointId id = begin->point;
     for (may_meet.clear(); begin != between.end() && begin->point == id; ++begin)

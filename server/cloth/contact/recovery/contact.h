@@ -156,6 +156,7 @@ class Contact {
   std::vector<Touch> touches_, inside_, not_held_, kept_aside_;
   std::vector<Arrival> arrivals_;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
+  VectorField<Real> began_;  ///< where they were as the substep began
 };
 
 extern template class Contact<float>;
