@@ -17,8 +17,16 @@ struct PointId {
   std::uint8_t within = 0;
 
   bool between_nodes() const { return within != 0; }
+  /// Where it is in the cell along u and along v, 0 to 1.
+  double u() const { return double(within % kCellParts) / kCellParts; }
+  double v() const {
+    const int row = within / kCellParts;
+    return double(row) / kCellParts;
+  }
   friend bool operator==(const PointId&, const PointId&) = default;
-  friend auto operator<=>(const PointId&, const PointId&) = default;
+  friend bool operator<(const PointId& a, const PointId& b) {
+    return a.node != b.node ? a.node < b.node : a.within < b.within;
+  }
 };
 
 /// A node, or a point between two or four: its place is bilinear in theirs, and what happens to it happens to
@@ -36,8 +44,7 @@ class ClothPoint {
       return;
     }
     const auto stride = static_cast<std::size_t>(particles.grid().stride);
-    const double v = double(id.within / kCellParts) / kCellParts;
-    const double u = double(id.within % kCellParts) / kCellParts;
+    const double u = id.u(), v = id.v();
     count_ = 0;
     add_node(id.node, (1 - u) * (1 - v));
     if (u > 0) add_node(id.node + 1, u * (1 - v));

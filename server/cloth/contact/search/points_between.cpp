@@ -121,8 +121,7 @@ Vec3 normal_at(const PointId& point, const VectorField<Real>& position) {
   const Grid& grid = position.grid();
   const auto row = static_cast<int>(point.node / static_cast<std::size_t>(grid.stride));
   const auto col = static_cast<int>(point.node % static_cast<std::size_t>(grid.stride));
-  const double v = double(point.within / kCellParts) / kCellParts;
-  const double u = double(point.within % kCellParts) / kCellParts;
+  const double u = point.u(), v = point.v();
   const kernels::Components<const Real> places = kernels::components(position);
   const auto place = [&](int r, int c) {
     return at(places, grid.index(std::clamp(r, 0, grid.rows - 1), std::clamp(c, 0, grid.cols - 1)));
@@ -139,7 +138,7 @@ Vec3 normal_at(const PointId& point, const VectorField<Real>& position) {
 template <class Real>
 Surface way_out_of(const PlacedShape& shape, const PointId& point, const Vec3& place,
                    const VectorField<Real>& position) {
-  const Surface nearest = shape.surface(place);
+  Surface nearest = shape.surface(place);
   if (!point.between_nodes() || !(-nearest.distance > kDeep * inner_radius(shape.shape))) return nearest;
   const Vec3 normal = normal_at(point, position);
   if (!(normal.squaredNorm() > 0.5)) return nearest;

@@ -11,7 +11,9 @@ struct NearPoint {
   std::size_t solid = 0;  ///< index
 
   friend bool operator==(const NearPoint&, const NearPoint&) = default;
-  friend auto operator<=>(const NearPoint&, const NearPoint&) = default;
+  friend bool operator<(const NearPoint& a, const NearPoint& b) {
+    return a.point == b.point ? a.solid < b.solid : a.point < b.point;
+  }
 };
 
 /// Which points are looked for, by what holds them.
