@@ -1,6 +1,7 @@
 #include "cloth/contact/layers.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "cloth/contact/recovery/untangling.h"
@@ -233,13 +234,17 @@ bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
       changed = true;
     }
     if (!changed) continue;
+    std::set<std::size_t> held_up;
     for (const Touch& touch : cloths[k].keep_outside(before, dt)) {
-      const Particles<Real>& outside = cloths[k].particles();
-      ClothPoint<Real>(touch.point(), outside).for_each_node([&](std::size_t node, double) {
-        const std::size_t n = nodes_.first[k] + node;
-        nodes_.end[n] = outside.place + at(kernels::components(outside.position), node);
-        nodes_.inverse_mass[n] *= kHeldUp;
+      ClothPoint<Real>(touch.point(), cloths[k].particles()).for_each_node([&](std::size_t node, double) {
+        held_up.insert(node);
       });
+    }
+    for (const std::size_t node : held_up) {
+      const std::size_t n = nodes_.first[k] + node;
+      const Particles<Real>& outside = cloths[k].particles();
+      nodes_.end[n] = outside.place + at(kernels::components(outside.position), node);
+      nodes_.inverse_mass[n] *= kHeldUp;
       met = true;
     }
     cloths[k].moved_from_outside();

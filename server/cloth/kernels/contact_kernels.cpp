@@ -33,6 +33,21 @@ template <class Real>
   });
 }
 
+template <class Real>
+[[gnu::always_inline]] inline std::uint32_t rows_wider_any(const NodeBlock<Real>& block, double square) {
+  const Real *x = block.position.x, *y = block.position.y, *z = block.position.z;
+  const auto below = static_cast<std::size_t>(block.stride);
+  return rows_where(block, [=](std::size_t i) WEFT_INLINE_LAMBDA -> std::int64_t {
+    const auto apart = [=](std::size_t a, std::size_t b) WEFT_INLINE_LAMBDA {
+      const double dx = static_cast<double>(x[a]) - static_cast<double>(x[b]);
+      const double dy = static_cast<double>(y[a]) - static_cast<double>(y[b]);
+      const double dz = static_cast<double>(z[a]) - static_cast<double>(z[b]);
+      return dx * dx + dy * dy + dz * dz;
+    };
+    return apart(i, i + below + 1) > square || apart(i + 1, i + below) > square ? 1 : 0;
+  });
+}
+
 /// The point's height over the plane.
 template <class Real>
 [[gnu::always_inline]] inline double height(const Below& plane, Real x, Real y, Real z) {
@@ -156,6 +171,12 @@ WEFT_MULTIVERSION std::uint32_t rows_inside(const NodeBlock<float>& block, const
 }
 WEFT_MULTIVERSION std::uint32_t rows_inside(const NodeBlock<double>& block, const Stretch& capsule) {
   return rows_inside_any(block, capsule);
+}
+WEFT_MULTIVERSION std::uint32_t rows_wider(const NodeBlock<float>& block, double square) {
+  return rows_wider_any(block, square);
+}
+WEFT_MULTIVERSION std::uint32_t rows_wider(const NodeBlock<double>& block, double square) {
+  return rows_wider_any(block, square);
 }
 WEFT_MULTIVERSION std::uint32_t rows_swept(const NodeBlock<float>& block, const BlockWay<float>& way,
                                            const Triple& move, const Sphere& ball) {

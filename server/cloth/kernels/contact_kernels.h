@@ -56,6 +56,11 @@ std::uint32_t rows_inside(const NodeBlock<double>& block, const OrientedBox& box
 std::uint32_t rows_inside(const NodeBlock<float>& block, const Stretch& capsule);
 std::uint32_t rows_inside(const NodeBlock<double>& block, const Stretch& capsule);
 
+/// Which of a block's rows have a cell with a diagonal whose square, m2, is more: bit r for the cells that
+/// begin at row r. The nodes right of and below the block are read, too.
+std::uint32_t rows_wider(const NodeBlock<float>& block, double square);
+std::uint32_t rows_wider(const NodeBlock<double>& block, double square);
+
 /// Where a block's nodes come from: own * position + factor * other.
 template <class Real>
 struct BlockWay {

@@ -62,9 +62,13 @@ class ClothPoint {
   }
 
   /// Of a field of places or velocities that pinned nodes have as well.
-  Vec3 of(const kernels::Components<const Real>& field) const { return sum(field, weight_); }
+  Vec3 of(const kernels::Components<const Real>& field) const {
+    return count_ == 1 ? at(field, node_[0]) : sum(field, weight_);
+  }
   /// Of a field of moves that pinned nodes have not.
-  Vec3 moved_by(const kernels::Components<const Real>& field) const { return sum(field, moves_); }
+  Vec3 moved_by(const kernels::Components<const Real>& field) const {
+    return count_ == 1 ? at(field, node_[0]) : sum(field, moves_);
+  }
   /// Adds to the nodes' forces what a force at the point is to them.
   void add_force(const kernels::Components<Real>& field, const Vec3& force) const {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -110,7 +114,6 @@ class ClothPoint {
     weight_[count_++] = weight;
   }
   Vec3 sum(const kernels::Components<const Real>& field, const std::array<double, 4>& weight) const {
-    if (count_ == 1) return at(field, node_[0]);
     Vec3 total(0, 0, 0);
     for (std::size_t k = 0; k < count_; ++k) total += weight[k] * at(field, node_[k]);
     return total;

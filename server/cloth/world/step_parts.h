@@ -17,12 +17,13 @@ namespace weft {
 /// Where one cloth moves past another, a step holds the few pairs of features that it predicts, and the net
 /// has to stop the others: in a part the cloths move past each other by at most 4 cells, up to 4 parts.
 ///
-/// With `solid` colliders an implicit step stops nodes on straight ways: in a part pins move by at most half
+/// With `solids` an implicit step stops nodes on straight ways: in a part pins move by at most half
 /// of their cloth's larger side, up to 8 parts. Pins fixed to an obstacle do not count.
 ///
-/// A body on a cloth that another hits is where the cloth's step did not expect it: it would be through
-/// before the cloth feels it. While a body touches cloth, none that touches it or may hit it goes farther in
-/// a part than its inner radius, up to 4 parts.
+/// A body on a cloth that another body hits, or that the cloth throws off, is elsewhere than the cloth's step
+/// expected, and may be through before the cloth feels it. In a part of an implicit step bodies that touch
+/// the cloth, those that may hit them, and the cloth where it touches them go at most a quarter of the body's
+/// inner radius, up to 4 parts.
 template <class Real>
 int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layers,
                const std::vector<Solid>& solids, double time, double dt);

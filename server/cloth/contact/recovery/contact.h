@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "cloth/contact/search/points_between.h"
@@ -42,7 +41,7 @@ struct Touch {
   PointId point() const { return {node, within}; }
   friend bool operator==(const Touch&, const Touch&) = default;
   friend bool operator<(const Touch& a, const Touch& b) {
-    return std::tuple(a.point(), a.collider) < std::tuple(b.point(), b.collider);
+    return a.point() == b.point() ? a.collider < b.collider : a.point() < b.point();
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cloth/core/interrupt.h"
+#include "cloth/kernels/contact_kernels.h"
 
 namespace weft {
 namespace {
@@ -72,6 +73,18 @@ struct Whole {
   }
 };
 
+/// Calls visit(point) for every point of what is whole, with so many parts a side.
+template <class Visit>
+void for_each_point(std::size_t node, int parts, const Whole& whole, Visit visit) {
+  const int step = kCellParts / parts;
+  for (int i = 0; i < kCellParts; i += step) {
+    for (int j = i == 0 ? step : 0; j < kCellParts; j += step) {
+      const bool is_whole = i == 0 ? whole.right : j == 0 ? whole.below : whole.inside;
+      if (is_whole) visit(PointId{node, static_cast<std::uint8_t>(i * kCellParts + j)});
+    }
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -91,22 +104,21 @@ std::vector<NearPoint> points_between(const Particles<Real>& particles, const Ve
     const Tile& tile = tiles[static_cast<std::size_t>(pair.tile)];
     const int row_end = tile.row_end == grid.rows ? tile.row_end : tile.row_end - 1;
     const int col_end = tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1;
+    const kernels::NodeBlock<Real> cells{
+        kernels::components(position) + grid.index(tile.row_begin, tile.col_begin),
+        tile.row_end - 1 - tile.row_begin, grid.stride, tile.col_end - 1 - tile.col_begin};
+    const std::uint32_t wide = kernels::rows_wider(cells, 4 * widest * widest);
     for (int row = tile.row_begin; row < row_end; ++row) {
+      // At the sheet's last row no cell begins: its edge is one of the row's above.
+      if ((wide >> std::min(row - tile.row_begin, cells.rows - 1) & 1U) == 0) continue;
       for (int col = tile.col_begin; col < col_end; ++col) {
         const CellCorners cell = cell_at(position, row, col);
         const int parts = cell.parts(widest);
         if (parts == 1 || !shape.may_touch(cell.middle(), reach + cell.radius())) continue;
-        const Whole whole = Whole::at(grid, torn, row, col);
-        const int step = kCellParts / parts;
-        for (int i = 0; i < kCellParts; i += step) {
-          for (int j = 0; j < kCellParts; j += step) {
-            if (i == 0 && j == 0) continue;
-            if (!(i == 0 ? whole.right : j == 0 ? whole.below : whole.inside)) continue;
-            const PointId point{grid.index(row, col), static_cast<std::uint8_t>(i * kCellParts + j)};
-            const bool free = ClothPoint<Real>(point, particles).free_part() >= 0.5;
-            if (free == (hold == PointHold::free)) found.push_back({point, index});
-          }
-        }
+        for_each_point(grid.index(row, col), parts, Whole::at(grid, torn, row, col), [&](const PointId& id) {
+          const bool free = ClothPoint<Real>(id, particles).free_part() >= 0.5;
+          if (free == (hold == PointHold::free)) found.push_back({id, index});
+        });
       }
     }
   }

@@ -6,21 +6,13 @@
 #include <algorithm>
 #include <set>
 
+#include "fixtures.h"
+
 namespace weft {
 namespace {
 
-/// A flat sheet in the plane y = 0, in 8 x 8 cells of 0.1 m, its first node at the origin.
-Particles<float> flat() {
-  Particles<float> particles(Grid::with_nodes(9, 9));
-  for (int r = 0; r < 9; ++r) {
-    for (int c = 0; c < 9; ++c) {
-      particles.position.x.at(r, c) = 0.1F * static_cast<float>(c);
-      particles.position.z.at(r, c) = 0.1F * static_cast<float>(r);
-      particles.mass.at(r, c) = particles.inverse_mass.at(r, c) = 1;
-    }
-  }
-  return particles;
-}
+/// A flat sheet in the plane z = 0, in 8 x 8 cells of 0.1 m around the origin.
+Particles<float> flat() { return test::flat_sheet<float>(9, 9, {0.8, 0.8}); }
 
 Solid solid(const Shape& shape, const Vec3& place) {
   Solid made;
@@ -38,7 +30,7 @@ std::vector<NearPoint> near(const Particles<float>& particles, const Solid& soli
   return points_between(particles, particles.position, broad.tiles(), pairs, {solid}, sweep, torn, hold);
 }
 
-/// The widest parts of the cell at (4, 4): kCellParts over the smallest step between its points.
+/// Into how many a cell's side is divided: kCellParts over the smallest step between points.
 int parts(const std::vector<NearPoint>& found) {
   int step = kCellParts;
   for (const NearPoint& each : found) {
@@ -49,7 +41,8 @@ int parts(const std::vector<NearPoint>& found) {
   return kCellParts / step;
 }
 
-const Vec3 kMiddle(0.45, 0, 0.45);
+/// Of the cell that begins at node (4, 4).
+const Vec3 kMiddle(0.05, -0.05, 0);
 
 }  // namespace
 
@@ -68,27 +61,28 @@ TEST(PointsBetween, AreAsCloseAsTheSolidIsSmall) {
 // by being thin.
 TEST(PointsBetween, KnowWhatFitsThrough) {
   const Particles<float> particles = flat();
-  EXPECT_TRUE(near(particles, solid(Box{{0.3, 0.001, 0.3}}, kMiddle)).empty());
-  EXPECT_FALSE(near(particles, solid(Box{{0.02, 0.3, 0.02}}, kMiddle)).empty());
+  EXPECT_TRUE(near(particles, solid(Box{{0.3, 0.3, 0.001}}, kMiddle)).empty());
+  EXPECT_FALSE(near(particles, solid(Box{{0.02, 0.02, 0.3}}, kMiddle)).empty());
   EXPECT_FALSE(near(particles, solid(Capsule{0.3, 0.03}, kMiddle)).empty());
 }
 
 TEST(PointsBetween, AreFoundOnceAndNearTheSolid) {
   const Particles<float> particles = flat();
   const double radius = 0.06;
-  const std::vector<NearPoint> found = near(particles, solid(Sphere{radius}, {0.5, 0, 0.5}));
+  const Vec3 node = particles.local_position_at(5, 5);  // (0.1, -0.1, 0)
+  const std::vector<NearPoint> found = near(particles, solid(Sphere{radius}, node));
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
   std::set<std::pair<double, double>> inside;
   for (const NearPoint& each : found) {
     const Vec3 place = ClothPoint<float>(each.point, particles).of(kernels::components(particles.position));
     // A cell that the solid reaches may have points as far beyond as it is wide.
-    EXPECT_LT((place - Vec3(0.5, 0, 0.5)).norm(), radius + 0.142);
-    if ((place - Vec3(0.5, 0, 0.5)).norm() < radius)
-      inside.insert({std::round(1e3 * place.x()), std::round(1e3 * place.z())});
+    EXPECT_LT((place - node).norm(), radius + 0.142);
+    if ((place - node).norm() < radius)
+      inside.insert({std::round(1e3 * place.x()), std::round(1e3 * place.y())});
   }
   // Of the points 0.05 m apart the four next to the node, which is one itself, lie in it.
-  EXPECT_EQ(inside, (std::set<std::pair<double, double>>{{450, 500}, {500, 450}, {500, 550}, {550, 500}}));
+  EXPECT_EQ(inside, (std::set<std::pair<double, double>>{{50, -100}, {100, -150}, {100, -50}, {150, -100}}));
 }
 
 // The sheet's last row and column have no cells of their own.
@@ -98,7 +92,8 @@ TEST(PointsBetween, LieOnTheLastEdgesToo) {
     return std::any_of(found.begin(), found.end(), [&](const NearPoint& each) { return each.point == id; });
   };
   const Grid& grid = particles.grid();
-  const std::vector<NearPoint> found = near(particles, solid(Sphere{0.06}, {0.8, 0, 0.8}));
+  const std::vector<NearPoint> found =
+      near(particles, solid(Sphere{0.06}, particles.local_position_at(8, 8)));
   EXPECT_TRUE(has(found, {grid.index(8, 7), 4}));
   EXPECT_TRUE(has(found, {grid.index(7, 8), 4 * kCellParts}));
   for (const NearPoint& each : found) EXPECT_FALSE(each.point.node == grid.index(8, 8));

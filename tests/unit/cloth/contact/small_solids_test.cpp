@@ -6,6 +6,7 @@
 
 #include "bodies.h"
 #include "cloth/world/simulation.h"
+#include "fixtures.h"
 
 namespace weft {
 namespace {
@@ -50,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SmallSolids,
                          });
 
 // Ball, box and capsule, each over the middle of a cell of 0.15 m that has room for a ball of 0.106 m, from
-// 0.5 m. The bed sinks by some decimetres under 1 kg (SagsAlikeAtAnyLevel).
+// 0.5 m. Measured: the bed sinks by 0.08 to 0.16 m under them.
 TEST_P(SmallSolids, RestOnCoarseCloth) {
   SimulationDescription scene = trampoline(4, GetParam());
   scene.balls = {flying_ball({-0.525, 0.5, 0.075}, 0.06, {0, 0, 0}, 0.5)};
@@ -60,7 +61,7 @@ TEST_P(SmallSolids, RestOnCoarseCloth) {
                      flying(capsule, {0.525, 0.5, -0.525}, {0, 0, 0}, 0.5)};
   Simulation<float> simulation(scene);
   for (int step = 0; step < 300; ++step) simulation.step();
-  EXPECT_GT(lowest(simulation), -0.4);
+  EXPECT_GT(lowest(simulation), -0.25);
 }
 
 // What moves nodes pushes nodes: a kinematic ball that goes down through the bed's middle by 0.2 m takes the
@@ -88,9 +89,9 @@ TEST_P(SmallSolids, RestOnPinnedCloth) {
   scene.obstacles = {flying(BoxDescription{{0.1, 0.1, 0.1}}, {0.075, 0.3, 0.525}, {0, 0, 0}, 0.5)};
   Simulation<float> simulation(scene);
   for (int step = 0; step < 240; ++step) simulation.step();
-  // A ball hangs between points 0.075 m apart.
-  const double sag = 0.06 - std::sqrt(0.06 * 0.06 - 0.075 * 0.075 / 2) + 1e-3;
-  EXPECT_GT(lowest(simulation), 0.06 - sag - 0.01);
+  // A ball hangs between points of a quarter of a cell, 0.0375 m apart: it touches four of them.
+  const double sunk = std::sqrt(0.06 * 0.06 - 0.0375 * 0.0375 / 2);
+  EXPECT_GT(simulation.colliders().balls()[0].position.y(), sunk - 1e-3);
   EXPECT_LT(simulation.colliders().balls()[0].position.y(), 0.061);
   EXPECT_NEAR(simulation.colliders().obstacles()[0].pose.position.y(), 0.05, 1e-3);
 }
@@ -108,18 +109,9 @@ TEST(PinnedCloth, HoldsBodiesFarFromTheOrigin) {
 
 // A ball that lies on a cell falls through once that is a hole.
 TEST(SmallSolidsOnHoles, FallThroughWhatIsTorn) {
-  const int rows = 9;
-  const double cell = 0.25;
-  Particles<float> sheet(Grid::with_nodes(rows, rows));
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < rows; ++c) {
-      sheet.position.x.at(r, c) = static_cast<float>(cell * c);
-      sheet.position.z.at(r, c) = static_cast<float>(cell * r);
-      sheet.mass.at(r, c) = sheet.inverse_mass.at(r, c) = 1;
-    }
-  }
+  Particles<float> sheet = test::flat_sheet<float>(9, 9, {2, 2});
   Solid ball{.id = 1, .shape = Sphere{0.1}};
-  ball.start = ball.position = {4.5 * cell, 0.05, 4.5 * cell};
+  ball.start = ball.position = {0.125, -0.125, 0.05};  // the middle of the cell that begins at node (4, 4)
   std::vector<Solid> solids{ball};
   Contact<float> contact(sheet.grid());
   EXPECT_GT(contact.resolve(sheet, solids, {}), 0);
@@ -151,7 +143,7 @@ TEST(SmallSolidsSlow, LieAlikeAtAnyLevel) {
   };
   const double coarse = depth(4), middle = depth(5);
   EXPECT_LT(middle, -0.02);
-  EXPECT_NEAR(coarse, middle, 0.02);
+  EXPECT_NEAR(coarse, middle, 0.01);  // measured: -0.066 and -0.071 m
 }
 
 // 20 balls of 20 kg, 14 cm in radius, fall on a bed of 2.3 kg at random places from up to 3.7 m, in steps of
@@ -170,9 +162,9 @@ TEST(SmallSolidsSlow, TwentyHeavyBallsInLongStepsStayOnTheBed) {
   }
   Simulation<float> simulation(scene);
   for (int step = 0; step < 150; ++step) simulation.step();
-  // 400 kg stretch the bed by 0.9 m.
-  EXPECT_GT(lowest(simulation), -1.1);
-  for (const Ball& ball : simulation.colliders().balls()) EXPECT_LT(ball.velocity.norm(), 0.1);
+  // Measured: the lowest lies at -0.74 m, the fastest has 3 mm/s.
+  EXPECT_GT(lowest(simulation), -0.9);
+  for (const Ball& ball : simulation.colliders().balls()) EXPECT_LT(ball.velocity.norm(), 0.02);
 }
 
 }  // namespace

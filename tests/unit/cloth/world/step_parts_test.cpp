@@ -104,9 +104,12 @@ TEST(StepsInParts, AreThoseOfBodiesOnCloth) {
     cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
     scene.cloths = {cloth};
     scene.integrator = integrator;
-    BallDescription ball = flying_ball({-0.3, 0.099, 0}, 0.1);
-    scene.balls = {ball, flying_ball({-0.3, 0.099 + above, 0}, 0.1, {0, 0, speed})};
-    if (above == 0) scene.balls = {flying_ball({-0.3, 0.099, 0}, 0.1, {speed, -0.5, 0})};
+    const Vec3 place(-0.3, 0.099, 0);
+    if (above == 0) {
+      scene.balls = {flying_ball(place, 0.1, {speed, -0.5, 0})};
+    } else {
+      scene.balls = {flying_ball(place, 0.1), flying_ball(place + Vec3(0, above, 0), 0.1, {0, 0, speed})};
+    }
     return scene;
   };
   const IntegratorDescription implicit = BackwardEulerDescription{};
