@@ -8,8 +8,10 @@
 
 #include "cloth/core/interrupt.h"
 #include "host/arithmetic.h"
+#include "host/live_scene.h"
 #include "host/scene_messages.h"
 #include "host/server_clock.h"
+#include "host/study_thread.h"
 
 namespace weft::host {
 namespace {
@@ -19,7 +21,20 @@ constexpr auto kStatsPeriod = std::chrono::milliseconds(500);
 /// Between what is published without a step in real time.
 constexpr auto kPublishPeriod = std::chrono::milliseconds(16);
 
+struct Join {};
+struct Leave {};
+struct Studied {
+  std::uint64_t number;  ///< LiveScene::study_number()
+  StudyOutcome outcome;
+};
+
 }  // namespace
+
+struct SceneRunner::Task {
+  std::shared_ptr<Viewer> viewer;
+  std::uint64_t visit;
+  std::variant<Join, Leave, SceneRequest, Call, Studied> what;
+};
 
 SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
     : name_(scene.name),
@@ -28,7 +43,7 @@ SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
       max_viewers_(limits.viewers),
       time_step_(scene.simulation.time_step),
       meshes_(mesh_texts(scene.simulation)),
-      live_(std::move(scene), limits),
+      live_(std::make_unique<LiveScene>(std::move(scene), limits)),
       clock_(time_step_),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -45,6 +60,14 @@ bool SceneRunner::reserve() {
     if (viewers_.compare_exchange_weak(seated, seated + 1)) return true;
   }
   return false;
+}
+
+void SceneRunner::join(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
+  post({std::move(viewer), visit, Join{}});
+}
+
+void SceneRunner::leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
+  post({std::move(viewer), visit, Leave{}});
 }
 
 bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
@@ -79,7 +102,7 @@ void SceneRunner::run(const std::stop_token& stop) {
       study_if_wanted();
       const bool stepped = step_if_due();
       // Before the frame goes out: who has seen it must not be told an older step.
-      frame_ = live_.simulation().step_count();
+      frame_ = live_->simulation().step_count();
       publish_if_due(stepped);
       send_stats_if_due();
       busy_since_ = 0;
@@ -92,7 +115,7 @@ void SceneRunner::run(const std::stop_token& stop) {
 std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token& stop) {
   const auto has_work = [this] { return !waiting_.empty(); };
   std::unique_lock lock(mutex_);
-  if (live_.empty()) {
+  if (live_->empty()) {
     work_.wait(lock, stop, has_work);
   } else {
     work_.wait_until(lock, stop, next_work(), has_work);
@@ -101,43 +124,43 @@ std::vector<SceneRunner::Task> SceneRunner::wait_for_work(const std::stop_token&
 }
 
 StepClock::TimePoint SceneRunner::next_work() const {
-  if (live_.wants_step()) return running_ ? std::min(clock_.next(), stats_due_) : Clock::now();
-  return live_.has_news() ? std::min(publish_due_, stats_due_) : stats_due_;
+  if (live_->wants_step()) return running_ ? std::min(clock_.next(), stats_due_) : Clock::now();
+  return live_->has_news() ? std::min(publish_due_, stats_due_) : stats_due_;
 }
 
 void SceneRunner::carry_out(Task& task) {
   if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
-    live_.apply(task.viewer, task.visit, *request);
+    live_->apply(task.viewer, task.visit, *request);
     task.viewer->command_answered();
   } else if (const auto* call = std::get_if<Call>(&task.what)) {
     (*call)();
     task.viewer->command_answered();
   } else if (auto* studied = std::get_if<Studied>(&task.what)) {
-    if (studied->number == live_.study_number()) live_.take_study(std::move(studied->outcome));
+    if (studied->number == live_->study_number()) live_->take_study(std::move(studied->outcome));
   } else if (std::holds_alternative<Join>(task.what)) {
-    if (live_.empty()) stats_due_ = Clock::now();
-    live_.add_viewer(task.viewer, task.visit);
+    if (live_->empty()) stats_due_ = Clock::now();
+    live_->add_viewer(task.viewer, task.visit);
   } else {
-    live_.remove_viewer(task.viewer.get(), task.visit);
+    live_->remove_viewer(task.viewer.get(), task.visit);
   }
 }
 
 bool SceneRunner::step_if_due() {
-  const bool in_real_time = live_.wants_step() && !live_.paused();
+  const bool in_real_time = live_->wants_step() && !live_->paused();
   if (in_real_time && !running_) clock_.start(Clock::now());
   running_ = in_real_time;
-  if (!live_.wants_step() || (running_ && Clock::now() < clock_.next())) return false;
-  live_.step();
-  for (const std::string& text : live_.take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
+  if (!live_->wants_step() || (running_ && Clock::now() < clock_.next())) return false;
+  live_->step();
+  for (const std::string& text : live_->take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
   if (!running_) {
     ++steps_made_;
     return true;
   }
   clock_.stepped(Clock::now());
-  if (clock_.slow() != live_.slow()) {
+  if (clock_.slow() != live_->slow()) {
     spdlog::warn("scene {}: clock {}", name_,
                  clock_.slow() ? "runs behind real time" : "is in real time again");
-    live_.set_slow(clock_.slow());
+    live_->set_slow(clock_.slow());
   }
   return true;
 }
@@ -146,36 +169,36 @@ void SceneRunner::publish_if_due(bool stepped) {
   const auto now = Clock::now();
   // A step in real time is shown at once, and so is the last of those asked for. What changes more often, by
   // commands or steps asked for, is shown so many times a second.
-  const bool shown_at_once = stepped && (running_ || !live_.wants_step());
+  const bool shown_at_once = stepped && (running_ || !live_->wants_step());
   if (!shown_at_once && now < publish_due_) return;
-  if (live_.frame_due() || !running_) live_.tell_events();
-  live_.publish(server_ms());
-  encodes_ = live_.encoder().encodes();
+  if (live_->frame_due() || !running_) live_->tell_events();
+  live_->publish(server_ms());
+  encodes_ = live_->encoder().encodes();
   publish_due_ = now + kPublishPeriod;
 }
 
 void SceneRunner::study_if_wanted() {
-  const std::uint64_t number = live_.study_number();
+  const std::uint64_t number = live_->study_number();
   if (study_number_ && *study_number_ != number) {
     study_->give_up();
     study_number_.reset();
   }
-  if (study_number_ || !live_.wants_study()) return;
+  if (study_number_ || !live_->wants_study()) return;
   if (!study_) {
-    study_.emplace([this](std::uint64_t of, StudyOutcome outcome) {
+    study_ = std::make_unique<StudyThread>([this](std::uint64_t of, StudyOutcome outcome) {
       post({nullptr, 0, Studied{of, std::move(outcome)}});
     });
   }
   study_number_ = number;
-  study_->begin(number, live_.studied());
+  study_->begin(number, live_->studied());
 }
 
 void SceneRunner::send_stats_if_due() {
   const auto now = Clock::now();
-  if (live_.empty() || now < stats_due_) return;
+  if (live_->empty() || now < stats_due_) return;
   const StepClock::Seconds since = now - stats_sent_;
   const double made = static_cast<double>(std::exchange(steps_made_, 0)) * time_step_ / since.count();
-  live_.send_stats(running_ ? clock_.rate() : made);
+  live_->send_stats(running_ ? clock_.rate() : made);
   stats_sent_ = now;
   stats_due_ = std::max(stats_due_ + kStatsPeriod, now);
 }

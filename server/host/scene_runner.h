@@ -13,11 +13,15 @@
 #include <variant>
 #include <vector>
 
-#include "host/live_scene.h"
+#include "host/scene_request.h"
 #include "host/step_clock.h"
-#include "host/study_thread.h"
+#include "host/viewer.h"
+#include "scene/scene.h"
 
 namespace weft::host {
+
+class LiveScene;
+class StudyThread;
 
 /// Runs one scene on a thread of its own: in real time, and while it is paused the steps asked for as fast as
 /// they go. Every method may be called from any thread and returns at once: what is asked waits for the next
@@ -59,11 +63,9 @@ class SceneRunner {
   /// Gives a place back.
   void give_back() { --viewers_; }
   /// The viewer, for whom there is a place, comes in as `visit`.
-  void join(std::shared_ptr<Viewer> viewer, std::uint64_t visit) { post({std::move(viewer), visit, Join{}}); }
+  void join(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
   /// It leaves. Commands it gave before are still carried out.
-  void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
-    post({std::move(viewer), visit, Leave{}});
-  }
+  void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
   /// Called on the scene's thread, when what was submitted before is carried out and answered.
   using Call = std::function<void()>;
   /// One command, or a call. False if too many wait; it is forgotten.
@@ -71,17 +73,7 @@ class SceneRunner {
               std::variant<SceneRequest, Call> what);
 
  private:
-  struct Join {};
-  struct Leave {};
-  struct Studied {
-    std::uint64_t number;  ///< LiveScene::study_number()
-    StudyOutcome outcome;
-  };
-  struct Task {
-    std::shared_ptr<Viewer> viewer;
-    std::uint64_t visit;
-    std::variant<Join, Leave, SceneRequest, Call, Studied> what;
-  };
+  struct Task;
 
   void run(const std::stop_token& stop);
   std::vector<Task> wait_for_work(const std::stop_token& stop);
@@ -111,12 +103,12 @@ class SceneRunner {
   std::vector<Task> waiting_;  ///< guarded by mutex_
 
   // The thread's own.
-  LiveScene live_;
+  const std::unique_ptr<LiveScene> live_;
   StepClock clock_;
   StepClock::TimePoint stats_due_{}, stats_sent_{}, publish_due_{};
   bool running_ = false;                       ///< in real time
   std::uint64_t steps_made_ = 0;               ///< in no real time, since the last stats
-  std::optional<StudyThread> study_;           ///< from when it was first wanted
+  std::unique_ptr<StudyThread> study_;         ///< from when it was first wanted
   std::optional<std::uint64_t> study_number_;  ///< of what it studies or has studied
 
   std::jthread thread_;  // last: it uses all of the above

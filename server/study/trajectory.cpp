@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "cloth/world/simulation.h"
 #include "study/thread_time.h"
 
 namespace weft::study {

@@ -3,7 +3,12 @@
 #include <functional>
 #include <vector>
 
-#include "cloth/world/simulation.h"
+#include "cloth/core/description.h"
+
+namespace weft {
+template <class Real>
+class Simulation;
+}
 
 namespace weft::study {
 
