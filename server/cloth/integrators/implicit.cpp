@@ -62,6 +62,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     forces.carry_pins(particles, forces.context.time);
     if (forces.layers != nullptr) forces.layers->begin(particles, part, state_->motion.near_rest());
     begin_substep(particles, forces.layers, h);
+    memory_->momentum.begin_substep(particles, forces, solids);
     report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
@@ -78,6 +79,9 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     if (forces.seam != nullptr) forces.seam->join(particles);
     memory_->ledger.count_work(particles, forces, state_->start,
                                forces.springs->damping_time() > 0 ? &state_->way : nullptr, h);
+    const double kept = memory_->momentum.end_substep(particles, forces, solids, state_->start, contact,
+                                                      second_order_ ? &memory_->second_order : nullptr, h);
+    if (second_order_ && kept != 1) scale_motion(particles, kept, memory_->last_velocity);
     touched = touched || report.nodes_in_contact > 0 || !contacts.empty();
     end_substep(particles, contact, h);
   }

@@ -4,6 +4,7 @@
 #include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/energy_ledger.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/momentum_keeper.h"
 #include "cloth/integrators/motion_scale.h"
 #include "cloth/integrators/softened_springs.h"
 #include "cloth/kernels/implicit_kernels.h"
@@ -28,6 +29,8 @@ namespace weft {
 ///
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
+///
+/// What solves leave of the momentum of a cloth that nothing holds is given back (MomentumKeeper).
 ///
 /// What formula and solves take from a cloth's energy is given back where nothing but wind drives it, and
 /// what they give is taken (EnergyLedger).
@@ -68,6 +71,7 @@ class Implicit final : public Integrator<Real> {
     double h = 0;                 ///< s, of the last substep
     ContactConstraints<Real> contacts;
     EnergyLedger<Real> ledger;
+    MomentumKeeper<Real> momentum;
 
     /// The node's next substep is one of backward Euler.
     void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }

@@ -195,7 +195,8 @@ TEST(Implicit, WhatTurnsFastGainsNoEnergy) {
     const double before = energy();
     for (int step = 0; step < 30; ++step) {
       rig.advance(step * kFrame, kFrame);
-      EXPECT_LE(energy(), before) << newton_iterations << ' ' << step;
+      // What it turns with is kept up to that energy, but for rounding.
+      EXPECT_LE(energy(), before * (1 + 1e-12)) << newton_iterations << ' ' << step;
     }
   }
 }

@@ -1,0 +1,203 @@
+#include "cloth/integrators/momentum_keeper.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/motion.h"
+
+namespace weft {
+namespace {
+
+/// Calls visit(index, row, column) for every node.
+template <class Visit>
+void for_each_node(const Grid& grid, Visit visit) {
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) visit(grid.index(r, c), r, c);
+  }
+}
+
+/// Of a body that moves like this, about a point in the world, seen from `place`.
+Vec3 angular_momentum(const Solid& solid, const Vec3& velocity, const Vec3& spin, const Vec3& place,
+                      const Vec3& point) {
+  Vec3 sum = (place + solid.position - point).cross(velocity / solid.inverse_mass);
+  if (solid.yields_turning()) sum += solid.inverse_inertia.inverse() * spin;
+  return sum;
+}
+
+/// J.
+double kinetic_energy(const Solid& solid) {
+  double energy = solid.velocity.squaredNorm() / (2 * solid.inverse_mass);
+  if (solid.yields_turning()) energy += solid.spin.dot(solid.inverse_inertia.inverse() * solid.spin) / 2;
+  return energy;
+}
+
+template <class Real>
+double stored(const Forces<Real>& forces, const VectorField<Real>& position) {
+  const double springs = forces.springs->energy(position);
+  return forces.plate == nullptr ? springs : springs + forces.plate->energy(position);
+}
+
+template <class Real>
+Eigen::Matrix3d inertia_about(const Vec3& centre, const Particles<Real>& particles) {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for_each_node(particles.grid(), [&](std::size_t, int r, int c) {
+    const Vec3 arm = particles.position_at(r, c) - centre;
+    inertia += double(particles.mass.at(r, c)) *
+               (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+  });
+  return inertia;
+}
+
+/// The largest share of a change, up to 1, that adds no more than `most` to an energy which it changes by
+/// linear * share + square * share^2.
+double share_within(double most, double linear, double square) {
+  if (linear + square <= most) return 1;
+  return (std::sqrt(linear * linear + 4 * square * std::max(0.0, most)) - linear) / (2 * square);
+}
+
+}  // namespace
+
+template <class Real>
+auto MomentumKeeper<Real>::motion_of(const Particles<Real>& particles) -> Motion {
+  Motion motion;
+  motion.known = true;
+  const Grid& grid = particles.grid();
+  for_each_node(grid, [&](std::size_t, int r, int c) {
+    const auto m = double(particles.mass.at(r, c));
+    const Vec3 velocity = particles.velocity_at(r, c);
+    motion.mass += m;
+    motion.centre += m * particles.local_position_at(r, c);
+    motion.momentum += m * velocity;
+  });
+  motion.centre /= motion.mass;
+  const Vec3 mean = motion.momentum / motion.mass;
+  for_each_node(grid, [&](std::size_t, int r, int c) {
+    const auto m = double(particles.mass.at(r, c));
+    const Vec3 velocity = particles.velocity_at(r, c) - mean;
+    motion.spin += m * (particles.local_position_at(r, c) - motion.centre).cross(velocity);
+    motion.kinetic += m * velocity.squaredNorm() / 2;
+  });
+  motion.centre += particles.place;
+  return motion;
+}
+
+template <class Real>
+bool MomentumKeeper<Real>::applies(const Particles<Real>& particles, const Forces<Real>& forces) {
+  return forces.layers == nullptr && forces.gas == nullptr && forces.springs->torn() == nullptr &&
+         !is_held(particles);
+}
+
+template <class Real>
+void MomentumKeeper<Real>::begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
+                                         const std::vector<Solid>& solids) {
+  before_ = forces.disturbed ? Motion{} : now_;
+  now_ = applies(particles, forces) ? motion_of(particles) : Motion{};
+  if (now_.known) solids_ = solids;
+}
+
+template <class Real>
+auto MomentumKeeper<Real>::touched_by(const std::vector<Solid>& solids, const Contact<Real>* contact)
+    -> Touched {
+  Touched touched;
+  if (contact == nullptr) return touched;
+  for (const Touch& touch : contact->touches()) {
+    const auto solid = std::find_if(solids.begin(), solids.end(),
+                                    [&](const Solid& each) { return each.id == touch.collider; });
+    (solid == solids.end() || solid->yields() ? touched.yielding : touched.firm) = true;
+  }
+  return touched;
+}
+
+template <class Real>
+auto MomentumKeeper<Real>::input(const Particles<Real>& particles, const Forces<Real>& forces,
+                                 const std::vector<Solid>& solids, const VectorField<Real>& start) -> Input {
+  const Grid& grid = particles.grid();
+  if (force_.grid() != grid) force_ = VectorField<Real>(grid);
+  forces.sum_effects(particles, force_);
+  Input input;
+  Vec3 moved(0, 0, 0);
+  const auto each_force = kernels::components(std::as_const(force_));
+  const auto from = kernels::components(start), to = kernels::components(particles.position);
+  for_each_node(grid, [&](std::size_t i, int r, int c) {
+    const Vec3 f = at(each_force, i), way = at<Real>(to, i) - at(from, i);
+    input.force += f;
+    input.torque += (particles.position_at(r, c) - now_.centre).cross(f);
+    input.work += f.dot(way);
+    moved += double(particles.mass.at(r, c)) * way;
+  });
+  input.work -= input.force.dot(moved) / now_.mass;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Solid &was = solids_[i], &is = solids[i];
+    if (!is.yields() || (was.velocity == is.velocity && was.spin == is.spin)) continue;
+    input.momentum -= (is.velocity - was.velocity) / is.inverse_mass;
+    input.angular_momentum -=
+        angular_momentum(is, is.velocity - was.velocity, is.spin - was.spin, particles.place, now_.centre);
+    input.energy += kinetic_energy(was) - kinetic_energy(is);
+  }
+  return input;
+}
+
+template <class Real>
+bool MomentumKeeper<Real>::all_by_bdf2(const std::vector<Solid>& solids,
+                                       const Field<Real>* second_order) const {
+  if (!before_.known || second_order == nullptr) return false;
+  if (std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); })) {
+    return false;
+  }
+  const auto& nodes = second_order->values();
+  return std::all_of(nodes.begin(), nodes.end(), [](Real share) { return share > Real(0); });
+}
+
+template <class Real>
+double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Forces<Real>& forces,
+                                         const std::vector<Solid>& solids, const VectorField<Real>& start,
+                                         const Contact<Real>* contact, const Field<Real>* second_order,
+                                         double h) {
+  if (!now_.known) return 1;
+  const Touched touched = touched_by(solids, contact);
+  if (touched.firm) {
+    restart();
+    return 1;
+  }
+  const Input given = input(particles, forces, solids, start);
+  const Vec3 point = now_.centre;
+  Vec3 momentum = now_.momentum + h * given.force + given.momentum;
+  Vec3 angular = now_.about(point) + h * given.torque + given.angular_momentum;
+  if (!touched.yielding && all_by_bdf2(solids, second_order)) {
+    momentum = (4 * now_.momentum - before_.momentum + 2 * h * given.force) / 3;
+    angular = (4 * now_.about(point) - before_.about(point) + 2 * h * given.torque) / 3;
+  }
+
+  const Motion end = motion_of(particles);
+  const Vec3 missing = momentum - end.momentum;
+  const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
+  const Eigen::Matrix3d inertia = inertia_about(end.centre, particles);
+  const Vec3 shift = missing / end.mass;
+  Vec3 turn = inertia.completeOrthogonalDecomposition().solve(missing_spin);
+  if (!shift.allFinite() || !turn.allFinite()) return 1;
+  double excess = 0;  // what the turning needs more than there is, J
+  const double linear = end.spin.dot(turn), square = turn.dot(inertia * turn) / 2;
+  if (linear + square > 0) {
+    const Vec3 mean = (now_.momentum + momentum) / (2 * now_.mass);  // the centre's velocity
+    const double had =
+        now_.kinetic + stored(forces, start) + given.work + given.energy - mean.dot(given.momentum);
+    const double left = had - end.kinetic - stored(forces, particles.position);
+    const double share = share_within(left + motion_energy(particles).inner, linear, square);
+    turn *= share;
+    excess = share * (linear + share * square) - std::max(0.0, left);
+  }
+  const auto velocity = kernels::components(particles.velocity);
+  for_each_node(particles.grid(), [&](std::size_t i, int r, int c) {
+    add(velocity, i, Vec3(shift + turn.cross(particles.position_at(r, c) - end.centre)));
+  });
+  return take_from_motion(particles, excess);
+}
+
+template class MomentumKeeper<float>;
+template class MomentumKeeper<double>;
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#pragma once
+#include "cloth/integrators/integrator.h"
+
+namespace weft {
+
+/// What a solve leaves of its residual is a force that nobody exerts: over the steps a free sheet loses its
+/// momentum and its spin by it, and in a hit what sheet and body have together. This gives a cloth that no
+/// node holds back what is missing: after each substep a rigid motion, which strains nothing, is added to the
+/// velocities, so that momentum and angular momentum, with those of the bodies that it touches, are what the
+/// effects' forces make of them by the formula of the substep: backward Euler's, h F, or BDF2's, where all
+/// nodes are stepped by that.
+///
+/// Turning has its energy from what the substep left of that with which it began, and then from the inner
+/// motion. Of a sheet that drew together as its solve failed both may be too little for the same angular
+/// momentum: then it turns as fast as they allow.
+///
+/// It leaves alone what solids that stand firm touch, as their force is not known to the last digit, torn
+/// sheets, whose pieces do not move as one, and what other cloths or gas press on.
+template <class Real>
+class MomentumKeeper {
+ public:
+  /// Particles and solids as a substep begins.
+  void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
+                     const std::vector<Solid>& solids);
+  /// As it ends; the nodes have come from `start`. `second_order` tells, node by node, if it was stepped by
+  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. Returns by
+  /// what the inner motion was multiplied (scale_motion).
+  double end_substep(Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
+                     const VectorField<Real>& start, const Contact<Real>* contact,
+                     const Field<Real>* second_order, double h);
+  /// What was before says nothing about what follows.
+  void restart() { now_ = before_ = {}; }
+
+ private:
+  /// Of the cloth alone.
+  struct Motion {
+    bool known = false;
+    double mass = 0;         ///< kg
+    Vec3 centre{0, 0, 0};    ///< of mass, in the world, m
+    Vec3 momentum{0, 0, 0};  ///< N s
+    Vec3 spin{0, 0, 0};      ///< angular momentum about the centre, N m s
+    double kinetic = 0;      ///< energy beside the centre's, J
+    /// Angular momentum about a point.
+    Vec3 about(const Vec3& point) const { return spin + (centre - point).cross(momentum); }
+  };
+  /// What comes from outside in a substep.
+  struct Input {
+    Vec3 force{0, 0, 0};   ///< of the effects, N
+    Vec3 torque{0, 0, 0};  ///< of the effects, about the centre as the substep began, N m
+    double work = 0;       ///< of the effects beside the centre, J
+    Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};  ///< that bodies gave, N s; about that centre, N m s
+    double energy = 0;                                  ///< that they lost, J
+  };
+  static Motion motion_of(const Particles<Real>& particles);
+  static bool applies(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// A body that does not yield touches the cloth, or one that does.
+  struct Touched {
+    bool firm = false, yielding = false;
+  };
+  static Touched touched_by(const std::vector<Solid>& solids, const Contact<Real>* contact);
+  Input input(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
+              const VectorField<Real>& start);
+  bool all_by_bdf2(const std::vector<Solid>& solids, const Field<Real>* second_order) const;
+
+  Motion now_, before_;        ///< as the substep begins, and as the one before began
+  std::vector<Solid> solids_;  ///< as the substep begins
+  VectorField<Real> force_;    ///< N
+};
+
+extern template class MomentumKeeper<float>;
+extern template class MomentumKeeper<double>;
+
+}  // namespace weft
