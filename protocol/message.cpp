@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "protocol/command_table.h"
+#include "protocol/command_reader.h"
 #include "protocol/strict_json.h"
 
 namespace weft::protocol {

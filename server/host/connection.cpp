@@ -30,7 +30,7 @@ Connection::Pace Connection::receive(std::string_view text, TimePoint now) {
   const Request* request = std::get_if<Request>(&parsed);
   // An acknowledgement of a frame that was sent is as frequent as the frames are; losing it would stop them.
   if (const auto* ack = request ? std::get_if<protocol::Ack>(&request->command) : nullptr) {
-    if (viewer_->acknowledge(ack->frame)) {
+    if (viewer_->acknowledge(ack->f)) {
       ok(*request, json::object());
       return Pace::go_on;
     }

@@ -49,7 +49,7 @@ test('the camera through the thresholds', async (t) => {
 test('a thrown ball', async (t) => {
   const events = [];
   const scene = await join(t, (message) => message.op === 'event' && events.push(message));
-  const ball = await scene.addBall({position: [0, 0.5, 2], radius: 0.2});
+  const ball = await scene.addBall([0, 0.5, 2], 0.2);
   const {f} = await scene.throwBall(ball, [0, 1, -6]);
   const find = (frame) => frame.balls.find((each) => each.ball === ball);
   const first = await scene.nextFrame((frame) => frame.stamp.f >= f && find(frame));

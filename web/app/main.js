@@ -44,9 +44,10 @@ function start(settings) {
 
   // --- What the viewer wants ---
 
-  /** Sends a command; what goes wrong is told, but for one code that the sender expects. */
-  const command = (message, expected = 'closed') =>
-    link.request(message).catch((error) => {
+  const {commands} = link;
+  /** The reply to a command, or null; what goes wrong is told, but for one code that the sender expects. */
+  const ask = (reply, expected = 'closed') =>
+    reply.catch((error) => {
       if (error.code !== 'closed' && error.code !== expected) hud.toast(error.message);
       return null;
     });
@@ -59,30 +60,30 @@ function start(settings) {
   const actions = {
     joinScene: async (scene) => {
       if (!link.connected) return link.open(settings.server, scene);
-      if (!(await command({op: 'scene.join', scene}))) panel.setScenes(scenes, sceneShown);
+      if (!(await ask(commands.joinScene(scene)))) panel.setScenes(scenes, sceneShown);
     },
-    setPaused: (paused) => command({op: paused ? 'pause' : 'resume'}),
-    step: () => command({op: 'step', count: 1}),
-    reset: () => command({op: 'reset'}),
+    setPaused: (paused) => ask(paused ? commands.pause() : commands.resume()),
+    step: () => ask(commands.step()),
+    reset: () => ask(commands.reset()),
     goTo: (distance) => rig.goTo(distance),
     setWireframe: (on) => {
       show.setWireframe(on);
       panel.setWireframe(on);
     },
-    setWind: (wind) => command({op: 'wind.set', ...wind}),
+    setWind: ({direction, speed, gusts, turbulence, time_scale: timeScale, length_scale: lengthScale}) =>
+      ask(commands.setWind(direction, speed, {gusts, turbulence, timeScale, lengthScale})),
     addBall: async () => {
-      const reply = await command({op: 'ball.add', position: placeForBall(), radius: kBallRadius});
-      if (reply) newBall = reply.ball;
+      newBall = await ask(commands.addBall(placeForBall(), kBallRadius)) ?? newBall;
     },
-    removeBall: (ball) => command({op: 'ball.remove', ball}),
+    removeBall: (ball) => ask(commands.removeBall(ball)),
     throwBall: (ball) => {
       const velocity = aimedAtCloth(show.balls.ball(ball)?.position);
-      if (velocity) command({op: 'ball.throw', ball, velocity});
+      if (velocity) ask(commands.throwBall(ball, velocity));
     },
     chooseBall: choose,
-    moveBall: (ball, position) => command({op: 'ball.move', ball, position}),
+    moveBall: (ball, position) => ask(commands.moveBall(ball, position)),
     setBallFriction: async (ball, friction) => {
-      if (!(await command({op: 'friction.set', friction, ball}))) panel.ballFriction.takeBack(ball);
+      if (!(await ask(commands.setFriction(friction, {ball})))) panel.ballFriction.takeBack(ball);
     },
     setHandTool: (on) => {
       clothHand.setTool(on);
@@ -92,24 +93,24 @@ function start(settings) {
   let scenes = [];
   const panel = new Panel(actions);
   const cost = new CostPanel({
-    askCost: () => command({op: 'cost'}),
-    setQuality: (wish) => command({op: 'quality', ...wish}),
+    askCost: () => ask(commands.askCost()),
+    setQuality: ({max_error: maxError, max_ms: maxMs}) => ask(commands.setQuality({maxError, maxMs})),
   });
   const effects = new EffectsPanel({
     setEffect: async (effect, on) => {
-      if (!(await command({op: 'effect.set', effect, on}))) effects.setOff(effectsOff);
+      if (!(await ask(commands.setEffect(effect, on)))) effects.setOff(effectsOff);
     },
     tune: async (effect, parameters) => {
-      if (!(await command({op: 'effect.tune', effect, parameters}))) effects.takeBack(effect);
+      if (!(await ask(commands.tuneEffect(effect, parameters)))) effects.takeBack(effect);
     },
   });
   const material = new MaterialPanel({
     tune: async (cloth, parameters) => {
-      if (!(await command({op: 'cloth.tune', cloth, parameters}))) material.takeBack(cloth);
+      if (!(await ask(commands.tuneCloth(cloth, parameters)))) material.takeBack(cloth);
     },
   });
   const zones = new ZonesPanel({
-    setZone: (zone, velocity) => command({op: 'wind.zone.set', zone, velocity}),
+    setZone: (zone, velocity) => ask(commands.setWindZone(zone, velocity)),
     showZones: (on) => show.setZonesShown(on),
   });
   const chooseObstacle = (obstacle) => {
@@ -118,13 +119,13 @@ function start(settings) {
   };
   const obstacles = new ObstaclesPanel({
     choose: chooseObstacle,
-    move: (obstacle, position) => command({op: 'obstacle.move', obstacle, position}),
+    move: (obstacle, position) => ask(commands.moveObstacle(obstacle, position)),
     throw: (obstacle) => {
       const velocity = aimedAtCloth(show.obstacles.place(obstacle));
-      if (velocity) command({op: 'obstacle.throw', obstacle, velocity});
+      if (velocity) ask(commands.throwObstacle(obstacle, velocity));
     },
     setFriction: async (obstacle, friction) => {
-      if (!(await command({op: 'friction.set', friction, obstacle}))) obstacles.friction.takeBack(obstacle);
+      if (!(await ask(commands.setFriction(friction, {obstacle})))) obstacles.friction.takeBack(obstacle);
     },
   });
   let effectsOff = [];
@@ -135,15 +136,16 @@ function start(settings) {
   panel.setWireframe(settings.wireframe);
   // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   const clothHand = new ClothHand(stage, show, {
-    grab: async (cloth, u, v, position) => (await command({op: 'cloth.grab', cloth, u, v, position}))?.grab ?? null,
+    grab: (cloth, u, v, position) => ask(commands.grab(cloth, u, v, {position})),
     // A reset by somebody else may have ended it.
-    move: (grab, position) => command({op: 'grab.move', grab, position}, 'not_found'),
-    release: (grab) => command({op: 'grab.release', grab}, 'not_found'),
-    pin: (cloth, u, v) => command({op: 'cloth.pin', cloth, u, v}),
-    unpin: (cloth, u, v) => command({op: 'cloth.unpin', cloth, u, v}),
+    move: (grab, position) => ask(commands.moveGrab(grab, position), 'not_found'),
+    release: (grab) => ask(commands.release(grab), 'not_found'),
+    pin: (cloth, u, v) => ask(commands.pin(cloth, u, v)),
+    unpin: (cloth, u, v) => ask(commands.unpin(cloth, u, v)),
   });
   const hand = new BodyHand(stage, show, {
-    command,
+    commands,
+    ask,
     taken: ({ball, obstacle}) => {
       if (ball !== undefined) return choose(ball);
       obstacles.choose(obstacle);
@@ -177,7 +179,7 @@ function start(settings) {
 
   // --- What the server says ---
 
-  const view = new ViewReporter((seen) => command({op: 'camera', ...seen}));
+  const view = new ViewReporter((seen) => ask(commands.camera(seen)));
 
   link.addEventListener('state', ({detail}) => {
     hud.showConnection(detail.state);
@@ -194,7 +196,7 @@ function start(settings) {
       hud.showBanner(null);
       tellNothing();
       view.forget();
-      command({op: 'scene.list'}).then((reply) => reply && panel.setScenes((scenes = reply.scenes), sceneShown));
+      ask(commands.listScenes()).then((list) => list && panel.setScenes((scenes = list), sceneShown));
     } else if (detail.state === 'lost') {
       retryAt = performance.now() + detail.retryMs;
       hud.lostReason = detail.reason;

@@ -1,3 +1,18 @@
+import {Commands} from '../protocol/weft.js';
+
+/** The client's methods, by way of the worker. */
+class LinkCommands extends Commands {
+  /** @param {Link} link */
+  constructor(link) {
+    super();
+    this.link = link;
+  }
+
+  send(op, members = {}) {
+    return this.link.request({op, ...members});
+  }
+}
+
 /**
  * The page's end of the connection. The socket itself, decoding and reconnecting live in worker.js.
  *
@@ -9,6 +24,7 @@
 export class Link extends EventTarget {
   constructor() {
     super();
+    this.commands = new LinkCommands(this);
     this.worker = new Worker(new URL('./worker.js', import.meta.url), {type: 'module'});
     this.worker.addEventListener('message', ({data}) => this.#receive(data));
     this.waiting = new Map();
@@ -27,7 +43,7 @@ export class Link extends EventTarget {
   }
 
   /**
-   * Sends a command; the promise has the `ok` (or `pong`) message, or fails with an Error that carries `code` and `path`.
+   * Sends a command (see `commands`); the promise has the `ok` (or `pong`) message, or fails with an Error that carries `code` and `path`.
    * @param {object} message with `op`, without `id`
    * @returns {Promise<object>}
    */

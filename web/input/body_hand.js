@@ -14,7 +14,7 @@ export class BodyHand {
   /**
    * @param {import('../view/stage.js').Stage} stage
    * @param {import('../app/show.js').Show} show
-   * @param {{command: (message: object, expected?: string) => Promise<object|null>, taken: (thing: {ball?: number, obstacle?: number}) => void,
+   * @param {import('./grips.js').Sender & {taken: (thing: {ball?: number, obstacle?: number}) => void,
    *          holding: (holds: boolean) => void}} actions
    */
   constructor(stage, show, actions) {
@@ -57,12 +57,11 @@ export class BodyHand {
   }
 
   #gripOf({object, point}) {
-    const {command} = this.actions;
     const {ball, obstacle, home, now} = object.userData;
-    if (ball) return new BallGrip(command, ball);
-    if (!home.mass) return new ObstacleGrip(command, obstacle, now.position);
+    if (ball) return new BallGrip(this.actions, ball);
+    if (!home.mass) return new ObstacleGrip(this.actions, obstacle, now.position);
     const place = point.toArray();
-    return new BodyGrip(command, {obstacle, mass: home.mass, point: object.worldToLocal(point.clone()).toArray(), place});
+    return new BodyGrip(this.actions, {obstacle, mass: home.mass, point: object.worldToLocal(point.clone()).toArray(), place});
   }
 
   #take(event) {
@@ -118,7 +117,7 @@ export class BodyHand {
   /** A body may lag behind the hand that pulls it: both are shown. */
   #showHand() {
     const {grip, mesh, pending} = this.drag;
-    if (grip instanceof BodyGrip && pending) this.show.marks.setHand({position: pending, mesh, point: grip.taken.point});
+    if (grip instanceof BodyGrip && pending) this.show.marks.setHand({position: pending, mesh, point: grip.hold.point});
   }
 
   /** Sends where the thing is wanted, now and then as long as that changes. */

@@ -55,7 +55,7 @@ export class CameraRig {
 
   /** What the page has in sight, as the `camera` message says it. */
   get view() {
-    return {eye: this.eye, target: this.controls.target.toArray(), half_angle: this.stage.halfAngle};
+    return {eye: this.eye, target: this.controls.target.toArray(), halfAngle: this.stage.halfAngle};
   }
 
   /** Looks at the centre from `distance` away, from the present direction. */
@@ -124,7 +124,7 @@ export class CameraRig {
 
 /** Sends where the camera is and what it has in sight when that has changed, at most ten times a second, and always the last one. */
 export class ViewReporter {
-  /** @param {(view: {eye: number[], target: number[], half_angle: number}) => void} send */
+  /** @param {(view: {eye: number[], target: number[], halfAngle: number}) => void} send */
   constructor(send) {
     this.send = send;
     this.sent = null;
@@ -139,7 +139,7 @@ export class ViewReporter {
 
   update(view, nowMs) {
     if (nowMs < this.nextMs) return;
-    const values = [...view.eye, ...view.target, view.half_angle];
+    const values = [...view.eye, ...view.target, view.halfAngle];
     if (this.sent && values.every((value, i) => Math.abs(value - this.sent[i]) < 1e-3)) return;
     this.sent = values;
     this.nextMs = nowMs + 100;

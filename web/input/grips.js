@@ -1,6 +1,10 @@
 const kSlowest = 0.6;  // m/s; let go slower than this and nothing is thrown
 
 /**
+ * @typedef {object} Sender
+ * @property {import('../protocol/weft.js').Commands} commands
+ * @property {<T>(reply: Promise<T>, expected?: string) => Promise<T|null>} ask the reply, or null; `expected`: a code that is no news
+ *
  * What a hand does to a thing that it drags, as commands: one class for each kind of thing.
  *
  * @typedef {object} Grip
@@ -13,34 +17,36 @@ const fast = (velocity) => velocity !== null && Math.hypot(...velocity) > kSlowe
 
 /** @implements {Grip} Puts a ball where the hand is. Thrown it flies off; let go at rest it stays, unless it flew when it was taken. */
 export class BallGrip {
-  /** @param {(message: object) => Promise<object|null>} command @param {{ball: number, position: number[], motion: string}} record */
-  constructor(command, {ball, position, motion}) {
-    this.command = command;
+  /** @param {Sender} sender @param {{ball: number, position: number[], motion: string}} record */
+  constructor(sender, {ball, position, motion}) {
+    this.commands = sender.commands;
+    this.ask = sender.ask;
     this.ball = ball;
     this.place = position;
     this.flew = motion === 'dynamic';
   }
 
   move(position) {
-    this.command({op: 'ball.move', ball: this.ball, position});
+    this.ask(this.commands.moveBall(this.ball, position));
   }
 
   letGo(velocity) {
-    if (fast(velocity) || this.flew) this.command({op: 'ball.throw', ball: this.ball, velocity: velocity ?? [0, 0, 0]});
+    if (fast(velocity) || this.flew) this.ask(this.commands.throwBall(this.ball, velocity ?? [0, 0, 0]));
   }
 }
 
 /** @implements {Grip} Puts an obstacle without a mass where the hand is; it stays there. */
 export class ObstacleGrip {
-  /** @param {(message: object) => Promise<object|null>} command @param {number} obstacle @param {number[]} position its place now, m */
-  constructor(command, obstacle, position) {
-    this.command = command;
+  /** @param {Sender} sender @param {number} obstacle @param {number[]} position its place now, m */
+  constructor(sender, obstacle, position) {
+    this.commands = sender.commands;
+    this.ask = sender.ask;
     this.obstacle = obstacle;
     this.place = position;
   }
 
   move(position) {
-    this.command({op: 'obstacle.move', obstacle: this.obstacle, position});
+    this.ask(this.commands.moveObstacle(this.obstacle, position));
   }
 
   letGo() {}
@@ -56,12 +62,14 @@ const kGravity = 9.81;
  */
 export class BodyGrip {
   /**
-   * @param {(message: object, expected?: string) => Promise<object|null>} command `expected`: a code that is no news
+   * @param {Sender} sender
    * @param {{obstacle: number, mass: number, point: number[], place: number[]}} taken `point` of its own axes, which is at `place`, m
    */
-  constructor(command, {obstacle, mass, point, place}) {
-    this.command = command;
-    this.taken = {obstacle, point, max_force: Math.min(kMaxForce, kWeights * kGravity * mass)};
+  constructor(sender, {obstacle, mass, point, place}) {
+    this.commands = sender.commands;
+    this.ask = sender.ask;
+    this.obstacle = obstacle;
+    this.hold = {point, maxForce: Math.min(kMaxForce, kWeights * kGravity * mass)};
     this.place = place;
     this.grab = undefined;  // null until the server has answered
     this.wanted = null;     // where, as soon as it has
@@ -71,7 +79,7 @@ export class BodyGrip {
   move(position) {
     if (this.grab === undefined) this.#take(position);
     else if (this.grab === null) this.wanted = position;
-    else this.command({op: 'grab.move', grab: this.grab, position}, 'not_found');  // a reset by somebody else may have ended it
+    else this.ask(this.commands.moveGrab(this.grab, position), 'not_found');  // a reset by somebody else may have ended it
   }
 
   letGo(velocity) {
@@ -82,15 +90,15 @@ export class BodyGrip {
 
   async #take(position) {
     this.grab = null;
-    const {grab} = (await this.command({op: 'obstacle.grab', ...this.taken, position})) ?? {};
-    if (grab === undefined) return;  // refused, and told
+    const grab = await this.ask(this.commands.grabObstacle(this.obstacle, {...this.hold, position}));
+    if (grab === null) return;  // refused, and told
     this.grab = grab;
     if (this.wanted) this.move(this.wanted);
     if (this.open) this.#release();
   }
 
   #release() {
-    this.command({op: 'grab.release', grab: this.grab}, 'not_found');
-    if (this.thrown) this.command({op: 'obstacle.throw', obstacle: this.taken.obstacle, velocity: this.thrown});
+    this.ask(this.commands.release(this.grab), 'not_found');
+    if (this.thrown) this.ask(this.commands.throwObstacle(this.obstacle, this.thrown));
   }
 }
