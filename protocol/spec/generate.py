@@ -21,10 +21,10 @@ OPERATIONS = [operation for group in SPEC["groups"] for operation in group["oper
 # --- What the table says, in one form ---
 
 def type_of(name):
-    """A type with all that it has from the type that it `is`, and the chain of names from the nearest."""
+    """A type with all that it has from the type that it `is`."""
     own = SPEC["types"][name]
     base = type_of(own["is"]) if "is" in own else {}
-    return {**base, **own, "name": name}
+    return {**base, **own}
 
 
 def members_of(operation):
