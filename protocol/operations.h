@@ -34,7 +34,7 @@ struct Camera {
 struct Ack {
   std::uint32_t f{};  ///< the frame's
 };
-/// `ping`: Is answered by a `pong` with the same `t`, after the replies to all commands given before.
+/// `ping`: Asks for a `pong` with the same `t`.
 struct Ping {
   double t{};  ///< comes back
 };
@@ -65,7 +65,7 @@ struct BallRemove {
 struct ObstacleMove {
   std::uint32_t obstacle{};  ///< its place in `scene`'s `obstacles`, from 0
   Vector position{};  ///< m
-  std::optional<Turn> quaternion = {};  ///< its own axes to the world's, any but zero, normalised; without one it keeps its turn; planes keep their normal
+  std::optional<Turn> quaternion = {};  ///< w, x, y, z: its own axes to the world's, any but zero, normalised; without one it keeps its turn; planes keep their normal
 };
 /// `obstacle.throw`: An obstacle that has a `mass` becomes dynamic, leaves its path and flies off.
 struct ObstacleThrow {

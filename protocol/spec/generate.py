@@ -349,11 +349,9 @@ def allowed(member):
 def documented(operation):
     lines = [f"#### `{operation['op']}`", ""]
     prose = described(operation)
-    if "ok" in operation:
-        prose += " `ok` carries " + ", ".join(f"`{name}`, {text}" for name, text in operation["ok"].items()) + "."
     if "errors" in operation:
         errors = [re.sub(r"^(\w+)", r"`\1`", error) for error in operation["errors"]]
-        prose += (" Error: " if len(errors) == 1 else " Errors: ") + ", ".join(errors) + "."
+        prose += (" Error: " if len(errors) == 1 else " Errors: ") + "; ".join(errors) + "."
     lines += textwrap.wrap(prose, 120, break_long_words=False, break_on_hyphens=False) + [""]
     if operation.get("members"):
         lines += ["| member | value | default | meaning |", "|---|---|---|---|"]
@@ -418,15 +416,19 @@ def told(member):
     return ", ".join(note for note in notes if note)
 
 
-def described(operation):
-    return " ".join(part for part in [operation["summary"], operation.get("text", "")] if part)
+def described(operation, returned=None):
+    """What it does, and what its reply carries but for what a method returns."""
+    parts = [operation["summary"], operation.get("text", "")]
+    if "ok" in operation and returned is None:
+        parts.append("`ok` carries " + ", ".join(f"`{name}`, {text}" for name, text in operation["ok"].items()) + ".")
+    return " ".join(part for part in parts if part)
 
 
 def javascript_method(operation):
     members = members_of(operation)
     positional = [member for member in members if is_required(member) or member.get("positional")]
     options = [member for member in members if member not in positional]
-    doc = textwrap.wrap(described(operation), 112, break_long_words=False, break_on_hyphens=False)
+    doc = textwrap.wrap(described(operation, operation["client"].get("returns")), 112, break_long_words=False, break_on_hyphens=False)
     for member in positional:
         name = camel(member["name"]) if is_required(member) else f"[{camel(member['name'])}]"
         doc.append(f"@param {{{member['js']}}} {name} {told(member)}".rstrip())
@@ -481,12 +483,18 @@ def python_method(operation):
     if keywords and not keywords[0].startswith("**"):
         arguments.append("*")
     client = operation["client"]
-    doc = described(operation)
+    doc = described(operation, client.get("returns"))
     if "returns" in client and len(operation["ok"][client["returns"]]) < 30:
         doc += f" Returns {operation['ok'][client['returns']]}."
     quoted = textwrap.wrap(f'"""{doc}', 112, break_long_words=False, break_on_hyphens=False)
     notes = [f"{member['name']}: {told(member)}" for member in members if told(member)]
-    quoted = quoted + [""] + notes + ['"""'] if notes else quoted[:-1] + [quoted[-1] + '"""']
+    if notes:
+        quoted += [""]
+        for note in notes:
+            quoted += textwrap.wrap(note, 112, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+        quoted += ['"""']
+    else:
+        quoted[-1] += '"""'
     call = filled(f"        {'ok =' if 'returns' in client else 'return'} await self.send(", [f'"{operation["op"]}"'] + sent, ")")
     lines = [filled(f"    async def {client['name']}(", arguments + keywords, f") -> {client.get('python', 'dict')}:")]
     lines += [("        " + line).rstrip() for line in quoted] + [call]

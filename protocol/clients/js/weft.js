@@ -351,7 +351,7 @@ export class Commands {
    * The obstacle leaves its path, goes there within one step and stays.
    * @param {number} obstacle its place in `scene`'s `obstacles`, from 0
    * @param {Vector} position m
-   * @param {{quaternion?: [number, number, number, number]}} [options] quaternion: its own axes to the world's, any but zero, normalised; without one it keeps its turn; planes keep their normal
+   * @param {{quaternion?: [number, number, number, number]}} [options] quaternion: w, x, y, z: its own axes to the world's, any but zero, normalised; without one it keeps its turn; planes keep their normal
    */
   moveObstacle(obstacle, position, { quaternion } = {}) {
     return this.send('obstacle.move', { obstacle, position, quaternion });
@@ -491,7 +491,7 @@ export class Commands {
   /**
    * Holds the scene to an error or to a time, for all viewers; with neither it is stepped in its own way. It is
    * stepped in the cheapest way expected to stay within that error, or in the most accurate way within that wall
-   * time a step.
+   * time a step. `ok` carries `quality`, as in `stats`.
    * @param {{maxError?: number, maxMs?: number}} [options] maxError: share of the cloth's size, 1e-6..1; maxMs: wall time of a step, 0.01..1000 ms
    */
   setQuality({ maxError, maxMs } = {}) {
@@ -513,7 +513,7 @@ export class Commands {
     return this.send('resume');
   }
 
-  /** Puts the scene back to its start, for all viewers. */
+  /** Puts the scene back to its start, for all viewers. `ok` carries `epoch`, the new one. */
   reset() {
     return this.send('reset');
   }

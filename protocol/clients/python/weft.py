@@ -507,7 +507,8 @@ class Client:
 
         obstacle: its place in `scene`'s `obstacles`, from 0
         position: m
-        quaternion: its own axes to the world's, any but zero, normalised; without one it keeps its turn; planes keep their normal
+        quaternion: w, x, y, z: its own axes to the world's, any but zero, normalised; without one it keeps its turn;
+            planes keep their normal
         """
         return await self.send("obstacle.move", obstacle=obstacle, position=position, quaternion=quaternion)
 
@@ -645,7 +646,7 @@ class Client:
                           max_ms: typing.Optional[float] = None) -> dict:
         """Holds the scene to an error or to a time, for all viewers; with neither it is stepped in its own way. It is
         stepped in the cheapest way expected to stay within that error, or in the most accurate way within that wall
-        time a step.
+        time a step. `ok` carries `quality`, as in `stats`.
 
         max_error: share of the cloth's size, 1e-6..1
         max_ms: wall time of a step, 0.01..1000 ms
@@ -665,7 +666,7 @@ class Client:
         return await self.send("resume")
 
     async def reset(self) -> dict:
-        """Puts the scene back to its start, for all viewers."""
+        """Puts the scene back to its start, for all viewers. `ok` carries `epoch`, the new one."""
         return await self.send("reset")
 
     async def step(self, count: int = 1) -> dict:
