@@ -90,13 +90,20 @@ bool LiveScene::sees(const Seat& seat, std::size_t cloth) const {
 }
 
 bool LiveScene::unseen(std::size_t cloth) const {
-  return std::all_of(seats_.begin(), seats_.end(), [&](const Seat& seat) { return lost(seat, cloth); });
+  return std::all_of(seats_.begin(), seats_.end(),
+                     [&](const Seat& seat) { return !decides(seat) || lost(seat, cloth); });
+}
+
+bool LiveScene::decides(const Seat& seat) const {
+  return seat.placed ||
+         std::none_of(seats_.begin(), seats_.end(), [](const Seat& other) { return other.placed; });
 }
 
 void LiveScene::request_levels() {
   if (seats_.empty()) return;
   std::vector<int> wanted(simulation_.cloths().size(), 0);
   for (const Seat& seat : seats_) {
+    if (!decides(seat)) continue;
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], seat.levels[i]);
   }
   quality_.want_level(*std::max_element(wanted.begin(), wanted.end()));

@@ -42,6 +42,7 @@ void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
+  seat.placed = true;
   seat.eye.reset();
   seat.cone.reset();
   if (camera.eye) {

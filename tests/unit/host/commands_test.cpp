@@ -270,6 +270,7 @@ TEST_F(Commands, AJoinIsAnsweredByTheSceneAndAFrameEvenWhilePaused) {
 
 TEST_F(Commands, StatsTellEachViewerItsOwn) {
   command(Camera{12.0, std::nullopt});
+  live.apply(other.viewer, 1, {std::nullopt, Camera{5.0, std::nullopt}});
   steps(2);
   live.send_stats(0.5);
   drain();

@@ -13,7 +13,7 @@ constexpr int kSteps = 90;
 constexpr int kAdd = 10, kThrow = 20, kWind = 45, kNearer = 30, kFarther = 60;
 /// From 5 m, which level 5 is for, to level 6 and to level 4 (Table 1).
 constexpr int kStartLevel = 5, kNearLevel = 6, kFarLevel = 4;
-constexpr double kNear = 0.8, kFar = 12;  // m
+constexpr double kStart = 5, kNear = 0.8, kFar = 12;  // m
 
 SceneCommand from(double distance) { return protocol::Camera{distance, std::nullopt}; }
 
@@ -30,6 +30,7 @@ std::vector<std::uint64_t> hashes_watched_by(int viewers) {
   const auto command = [&](const SceneCommand& what) {
     live.apply(readers[0].viewer, visits[0], {std::nullopt, what});
   };
+  command(from(kStart));
   std::vector<std::uint64_t> hashes;
   for (int step = 0; step < kSteps; ++step) {
     if (step == kAdd) command(protocol::BallAdd{.position = {0, 0, 1}, .radius = 0.3});

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cloth/levels/refine.h"
+#include "cloth/world/state_hash.h"
 #include "fixtures.h"
 #include "host/live_scene.h"
 
@@ -54,6 +55,59 @@ TEST_F(Levels, EachViewerHasItsOwnAndTheFinestIsSimulated) {
     EXPECT_EQ(cloth.rows, (1 << level) + 1);
     EXPECT_EQ(cloth.cols, (1 << level) + 1);
   }
+}
+
+/// States of 120 steps of a scene that one viewer watches from 12 m, while so many come before each tenth
+/// step and leave five steps later. They say nothing, or that they are farther away.
+std::vector<std::uint64_t> states_while_others_come(int others, bool farther) {
+  LiveScene scene(hung_cloth(), protocol::Limits{});
+  Reader observer;
+  const auto first = observer.viewer->enter();
+  scene.add_viewer(observer.viewer, first);
+  scene.apply(observer.viewer, first, camera(12));
+  std::vector<Reader> readers(static_cast<std::size_t>(others));
+  std::vector<std::uint64_t> visits(readers.size());
+  std::vector<std::uint64_t> states;
+  for (int step = 0; step < 120; ++step) {
+    for (std::size_t i = 0; i < readers.size(); ++i) {
+      if (step % 10 == 0) {
+        visits[i] = readers[i].viewer->enter();
+        scene.add_viewer(readers[i].viewer, visits[i]);
+        if (farther) scene.apply(readers[i].viewer, visits[i], camera(20));
+      }
+      if (step % 10 == 5) scene.remove_viewer(readers[i].viewer.get(), visits[i]);
+    }
+    scene.step();
+    scene.publish(0);
+    states.push_back(state_hash(scene.simulation()));
+  }
+  return states;
+}
+
+TEST_F(Levels, WhoComesChangesNothingUnlessItIsNearer) {
+  const auto alone = states_while_others_come(0, false);
+  for (const bool farther : {false, true}) EXPECT_EQ(states_while_others_come(50, farther), alone) << farther;
+}
+
+TEST_F(Levels, WhereNobodyHasSentItsCameraTheDefaultDistanceDecides) {
+  Reader one, other;
+  enter(one);
+  enter(other);
+  step();
+  EXPECT_EQ(simulated_level(), 5);
+  EXPECT_EQ(level_shown(other), 5);
+}
+
+TEST_F(Levels, WhoHasNotSentItsCameraIsShownWhatIsSimulatedForOthers) {
+  Reader observer, newcomer;
+  enter(observer, 12);
+  const auto visit = enter(newcomer);
+  step();
+  EXPECT_EQ(simulated_level(), 4);
+  EXPECT_EQ(level_shown(newcomer), 4);
+  live.apply(newcomer.viewer, visit, camera(5));
+  step();
+  EXPECT_EQ(level_shown(newcomer), 5);
 }
 
 TEST_F(Levels, ACoarserLevelHasTheSharedNodesOfTheSimulatedOne) {

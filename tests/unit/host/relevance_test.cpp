@@ -225,7 +225,7 @@ TEST(RelevanceTest, EachClothIsSeenForItself) {
   EXPECT_EQ(frame.cloths[1].level, 4);
 }
 
-TEST(RelevanceTest, WhoComesWakesIt) {
+TEST(RelevanceTest, WhoComesNearWakesIt) {
   Watched scene(relevant(Unseen::sleep));
   scene.command(kAway);
   scene.steps(kDwell + 1);
@@ -233,6 +233,9 @@ TEST(RelevanceTest, WhoComesWakesIt) {
   Reader late;
   const std::uint64_t visit = late.viewer->enter();
   scene.live.add_viewer(late.viewer, visit);
+  scene.steps(1);
+  EXPECT_EQ(scene.seen().substeps, 0) << "nobody knows yet where it is";
+  scene.live.apply(late.viewer, visit, {std::nullopt, kAtIt});
   scene.steps(1);
   EXPECT_EQ(scene.seen(), (Seen{kAwake, 5, 4, "awake", false}));
   scene.live.remove_viewer(late.viewer.get(), visit);
