@@ -72,11 +72,12 @@ std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t fr
   return dump(message);
 }
 
-std::string welcome_text(std::string_view server_version, const Limits& limits) {
+std::string welcome_text(std::string_view server_version, Role role, const Limits& limits) {
   return dump({{"op", "welcome"},
                {"protocol", kSubprotocol},
-               {"minor", 13},
+               {"minor", 14},
                {"server", "weft " + std::string(server_version)},
+               {"role", name_of(role)},
                {"caps", kCapabilities},
                {"limits",
                 {{"message_bytes", limits.message_bytes},

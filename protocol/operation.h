@@ -7,6 +7,7 @@
 
 #include "protocol/member.h"
 #include "protocol/message.h"
+#include "protocol/role.h"
 
 namespace weft::protocol {
 
@@ -43,6 +44,7 @@ constexpr Field field(const char* name, Presence presence, Bounds bounds) {
 
 struct Operation {
   const char* name;
+  Role role;  ///< the least that may give it
   Command blank;
   std::vector<Field> fields;
   /// What no single member can tell; nullptr: nothing.

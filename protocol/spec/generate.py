@@ -155,7 +155,7 @@ def cpp_table():
     entries = []
     for operation in OPERATIONS:
         fields = ",\n       ".join(cpp_field(operation, member) for member in members_of(operation))
-        entry = f'      {{"{operation["op"]}", {struct_name(operation)}{{}}, {{{fields}}}'
+        entry = f'      {{"{operation["op"]}", Role::{operation["role"]}, {struct_name(operation)}{{}}, {{{fields}}}'
         rules = operation.get("rules", [])
         if rules:
             command = "command" if any("normalised" in rule for rule in rules) else ""
@@ -352,6 +352,8 @@ def documented(operation):
     if "errors" in operation:
         errors = [re.sub(r"^(\w+)", r"`\1`", error) for error in operation["errors"]]
         prose += (" Error: " if len(errors) == 1 else " Errors: ") + "; ".join(errors) + "."
+    if operation["role"] != "view":
+        prose += f" Role: `{operation['role']}`."
     lines += textwrap.wrap(prose, 120, break_long_words=False, break_on_hyphens=False) + [""]
     if operation.get("members"):
         lines += ["| member | value | default | meaning |", "|---|---|---|---|"]

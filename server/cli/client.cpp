@@ -40,6 +40,7 @@ struct ClientOptions {
   double seconds = 0;
   std::vector<std::string> outputs;
   std::string script;
+  net::ClientSecurity security;
   bool quiet = false, health = false;
 };
 
@@ -80,7 +81,7 @@ class Conversation {
   Conversation(const ClientOptions& options, const net::Url& url)
       : options_(options),
         script_(options.script.empty() ? std::vector<Timed>{} : read_script(options.script)),
-        client_(url, kConnectTime) {}
+        client_(url, kConnectTime, options.security) {}
 
   int run() {
     start_ = Clock::now();
@@ -238,16 +239,16 @@ std::string base_path(const std::string& target) {
   return base.ends_with('/') ? base : base + '/';
 }
 
-int check_health(net::Url url) {
+int check_health(net::Url url, const net::ClientSecurity& security) {
   url.target = base_path(url.target) + "healthz";
-  const net::HttpReply reply = net::http_get(url, kConnectTime);
+  const net::HttpReply reply = net::http_get(url, kConnectTime, security);
   std::printf("%u %s\n", reply.status, reply.body.c_str());
   return reply.status == 200 && reply.body == "ok" ? 0 : kFailed;
 }
 
 int client(const ClientOptions& options) {
   net::Url url = net::Url::parse(options.url);
-  if (options.health) return check_health(url);
+  if (options.health) return check_health(url, options.security);
   if (url.target.ends_with('/')) url.target += std::string(kScenes) + options.scene;
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
@@ -263,7 +264,7 @@ void add_client(CLI::App& app, int& exit_code) {
   command
       ->add_option("URL", options->url,
                    "ws://HOST:PORT/v1/scenes/NAME, or http://HOST:PORT/ with --scene; behind a proxy, "
-                   "http://HOST/PATH/")
+                   "http://HOST/PATH/; with TLS wss: and https:")
       ->required();
   command->add_option("--scene", options->scene, "Scene to join if the URL names none")->default_val("flag");
   auto* camera =
@@ -291,6 +292,12 @@ void add_client(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--script", options->script,
                       "Messages to send, one a line: a message of the protocol with \"at\", its time in s");
+  command->add_option("--token", options->security.token, "The server's, where it asks for one")
+      ->envname("WEFT_TOKEN");
+  command
+      ->add_option("--ca", options->security.authorities,
+                   "Certificates (PEM) to trust with wss: and https: (default: the system's)")
+      ->check(CLI::ExistingFile);
   command->add_flag("--quiet", options->quiet, "Prints errors only");
   command->add_flag("--health", options->health, "Only asks whether the server is well (exit code 0: yes)");
   command->callback([options, &exit_code] { exit_code = client(*options); });

@@ -142,6 +142,25 @@ void add_serve(CLI::App& app, int& exit_code) {
       ->add_option("--set", options->overrides,
                    "POINTER=VALUE changes a value of every scene, as /wind/speed=8")
       ->allow_extra_args(false);
+  command
+      ->add_option("--tokens", options->server.tokens,
+                   "File of bearer tokens and what each may do: view, control or admin (JSON)")
+      ->check(CLI::ExistingFile);
+  CLI::Option* certificate =
+      command
+          ->add_option(
+              "--tls-certificate", options->server.certificate,
+              "Certificate chain (PEM): https and wss at the same port; without TLS this machine alone is "
+              "served")
+          ->check(CLI::ExistingFile);
+  CLI::Option* key = command->add_option("--tls-key", options->server.key, "Its private key (PEM)")
+                         ->check(CLI::ExistingFile)
+                         ->needs(certificate);
+  certificate->needs(key);
+  command->add_flag(
+      "--insecure", options->server.insecure,
+      "Listens at an address that others reach although there are no --tokens; with a certificate, "
+      "serves others without TLS, too");
   options->threads.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Logs warnings and errors only");
   command->callback([options, &exit_code] { exit_code = serve(*options); });

@@ -10,12 +10,13 @@ namespace weft::host {
 using nlohmann::json;
 using protocol::Request;
 
-Connection::Connection(Host& host, SceneRunner& scene, std::string_view server_version)
+Connection::Connection(Host& host, SceneRunner& scene, protocol::Role role, std::string_view server_version)
     : host_(host),
       scene_(&scene),
+      role_(role),
       rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()),
       excess_(host.limits().messages_per_second / 2, std::chrono::steady_clock::now()) {
-  send(protocol::welcome_text(server_version, host.limits()));
+  send(protocol::welcome_text(server_version, role, host.limits()));
   visit_ = viewer_->enter();
   scene_->join(viewer_, visit_);
 }
@@ -45,11 +46,21 @@ Connection::Pace Connection::receive(std::string_view text, TimePoint now) {
     return Pace::slow_down;
   }
   if (request) {
-    std::visit([&](const auto& command) { answer(*request, command); }, request->command);
+    if (may_give(*request))
+      std::visit([&](const auto& command) { answer(*request, command); }, request->command);
   } else {
     send(protocol::error_text(std::get<protocol::Error>(parsed)));
   }
   return Pace::go_on;
+}
+
+bool Connection::may_give(const Request& request) {
+  const protocol::Role needed = protocol::role_for(request.command);
+  if (role_ >= needed) return true;
+  refuse(request, "forbidden", "/op",
+         "this connection's role is " + std::string(name_of(role_)) +
+             "; allowed: " + std::string(name_of(needed)) + " and above");
+  return false;
 }
 
 void Connection::answer(const Request& request, const protocol::Hello& hello) {

@@ -15,8 +15,8 @@ class Connection {
   using TimePoint = std::chrono::steady_clock::time_point;
 
   /// Enters `scene`, in which a place is reserved for it (SceneRunner::reserve): `welcome` is the first thing
-  /// it sends.
-  Connection(Host& host, SceneRunner& scene, std::string_view server_version);
+  /// it sends. Commands that need more than `role` are refused.
+  Connection(Host& host, SceneRunner& scene, protocol::Role role, std::string_view server_version);
   /// Leaves the scene.
   ~Connection();
   Connection(const Connection&) = delete;
@@ -36,6 +36,8 @@ class Connection {
   Pace receive(std::string_view text, TimePoint now);
 
  private:
+  /// False, and the client is told, if its role does not do for the command.
+  bool may_give(const protocol::Request& request);
   void answer(const protocol::Request& request, const protocol::Hello& hello);
   void answer(const protocol::Request& request, const protocol::SceneList& list);
   void answer(const protocol::Request& request, const protocol::SceneJoin& join);
@@ -50,6 +52,7 @@ class Connection {
 
   Host& host_;
   SceneRunner* scene_;
+  const protocol::Role role_;
   std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
   std::uint64_t visit_ = 0;
   RateLimiter rate_;    ///< of messages

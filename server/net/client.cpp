@@ -4,6 +4,7 @@
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -12,6 +13,8 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "net/tls.h"
+#include "net/transport.h"
 #include "protocol/message.h"
 
 namespace weft::net {
@@ -44,26 +47,53 @@ bool run_until(asio::io_context& io, std::chrono::steady_clock::time_point until
   return true;
 }
 
+/// In the URL an IPv6 address stands in brackets.
+std::string unbracketed(const std::string& host) {
+  return host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
+}
+
 tcp::resolver::results_type resolve(asio::io_context& io, const Url& url) {
   error_code error;
   tcp::resolver resolver(io);
-  // In the URL an IPv6 address stands in brackets.
-  const bool bracketed = url.host.starts_with('[') && url.host.ends_with(']');
-  auto found =
-      resolver.resolve(bracketed ? url.host.substr(1, url.host.size() - 2) : url.host, url.port, error);
+  auto found = resolver.resolve(unbracketed(url.host), url.port, error);
   if (error) throw ConnectionError(host_header(url) + ": " + error.message());
   return found;
 }
 
+/// Begins TLS on a stream that is connected, with whom the URL names.
+void secure(asio::io_context& io, Transport& stream, const Url& url, const ClientSecurity& security) {
+  TlsContext context;
+  try {
+    context = client_tls(security.authorities);
+  } catch (const std::runtime_error& error) {
+    throw ConnectionError(error.what());
+  }
+  Transport::Tls& tls = stream.begin_tls(context);
+  const std::string name = unbracketed(url.host);
+  tls.set_verify_callback(asio::ssl::host_name_verification(name));
+  SSL_set_tlsext_host_name(tls.native_handle(), name.c_str());
+  std::optional<error_code> result;
+  tls.async_handshake(asio::ssl::stream_base::client, [&](error_code error) { result = error; });
+  run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
+  if (*result) throw ConnectionError("no TLS with " + host_header(url) + ": " + result->message());
+}
+
 /// Connects within `limit`; later operations have the same end of time.
-void connect(asio::io_context& io, beast::tcp_stream& stream, const Url& url,
-             std::chrono::milliseconds limit) {
+void connect(asio::io_context& io, Transport& stream, const Url& url, std::chrono::milliseconds limit,
+             const ClientSecurity& security) {
   const auto found = resolve(io, url);
   std::optional<error_code> result;
-  stream.expires_after(limit);
-  stream.async_connect(found, [&](error_code error, const tcp::endpoint&) { result = error; });
+  beast::tcp_stream& tcp = stream.next_layer();
+  tcp.expires_after(limit);
+  tcp.async_connect(found, [&](error_code error, const tcp::endpoint&) { result = error; });
   run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
   if (*result) throw ConnectionError("cannot connect to " + host_header(url) + ": " + result->message());
+  if (url.secure) secure(io, stream, url, security);
+}
+
+template <class Request>
+void show_token(Request& request, const ClientSecurity& security) {
+  if (!security.token.empty()) request.set(http::field::authorization, "Bearer " + security.token);
 }
 
 }  // namespace
@@ -73,15 +103,13 @@ Url Url::parse(std::string_view text) {
     return std::invalid_argument("not a URL like ws://HOST:PORT/v1/scenes/NAME or http://HOST:PORT/: " +
                                  std::string(text));
   };
-  std::string_view rest = text;
-  if (rest.starts_with("ws://")) {
-    rest.remove_prefix(5);
-  } else if (rest.starts_with("http://")) {
-    rest.remove_prefix(7);
-  } else {
-    throw refuse();
-  }
   Url url;
+  const auto colons = text.find("://");
+  const std::string_view scheme = text.substr(0, colons);
+  url.secure = scheme == "wss" || scheme == "https";
+  if (colons == std::string_view::npos || (!url.secure && scheme != "ws" && scheme != "http")) throw refuse();
+  if (url.secure) url.port = "443";
+  const std::string_view rest = text.substr(colons + 3);
   const auto slash = rest.find('/');
   std::string_view authority = rest.substr(0, slash);
   if (slash != std::string_view::npos) url.target = std::string(rest.substr(slash));
@@ -96,13 +124,14 @@ Url Url::parse(std::string_view text) {
   return url;
 }
 
-HttpReply http_get(const Url& url, std::chrono::milliseconds limit) {
+HttpReply http_get(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security) {
   asio::io_context io{1};
-  beast::tcp_stream stream(io);
-  connect(io, stream, url, limit);
+  Transport stream{beast::tcp_stream(io)};
+  connect(io, stream, url, limit, security);
   http::request<http::empty_body> request{http::verb::get, url.target, 11};
   request.set(http::field::host, host_header(url));
   request.set(http::field::connection, "close");
+  show_token(request, security);
   beast::flat_buffer buffer;
   http::response<http::string_body> response;
   std::optional<error_code> result;
@@ -124,7 +153,7 @@ struct Client::Impl {
   [[noreturn]] void fail(const char* doing, error_code error) const;
 
   asio::io_context io{1};
-  websocket::stream<beast::tcp_stream> ws{io};
+  websocket::stream<Transport> ws{beast::tcp_stream(io)};
   beast::flat_buffer incoming;
   bool reading = false;
   std::optional<error_code> read_result;
@@ -147,13 +176,15 @@ void Client::Impl::fail(const char* doing, error_code error) const {
   throw ConnectionError(std::string(doing) + ": " + error.message());
 }
 
-Client::Client(const Url& url, std::chrono::milliseconds limit) : impl_(std::make_unique<Impl>()) {
+Client::Client(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security)
+    : impl_(std::make_unique<Impl>()) {
   auto& ws = impl_->ws;
-  connect(impl_->io, beast::get_lowest_layer(ws), url, limit);
+  connect(impl_->io, ws.next_layer(), url, limit, security);
   beast::get_lowest_layer(ws).socket().set_option(tcp::no_delay(true));
   beast::get_lowest_layer(ws).expires_never();
   ws.set_option(websocket::stream_base::timeout{limit, websocket::stream_base::none(), false});
-  ws.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
+  ws.set_option(websocket::stream_base::decorator([&security](websocket::request_type& request) {
+    show_token(request, security);
     request.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
     request.set(http::field::user_agent, "weft client");
   }));

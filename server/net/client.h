@@ -2,6 +2,7 @@
 /// The other end: a blocking client of PROTOCOL.md for the command line and for tests.
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,14 +12,21 @@
 
 namespace weft::net {
 
-/// "ws://host:port/path" or "http://host:port/path", taken apart.
+/// "ws://host:port/path" or "http://host:port/path", or with TLS "wss:" or "https:", taken apart.
 struct Url {
+  bool secure = false;
   std::string host;
   std::string port = "80";
   std::string target = "/";
 
   /// Throws std::invalid_argument if `text` is not such a URL.
   static Url parse(std::string_view text);
+};
+
+/// What a client shows, and whom it trusts.
+struct ClientSecurity {
+  std::string token;                  ///< empty: none
+  std::filesystem::path authorities;  ///< certificates (PEM) trusted with TLS; empty: the system's
 };
 
 /// The server refused, closed, or cannot be reached; what() says which.
@@ -32,7 +40,7 @@ struct HttpReply {
   std::string body;
 };
 /// Throws ConnectionError if there is no whole answer within `limit`.
-HttpReply http_get(const Url& url, std::chrono::milliseconds limit);
+HttpReply http_get(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security = {});
 
 /// One WebSocket of a scene.
 class Client {
@@ -46,7 +54,7 @@ class Client {
   };
 
   /// Connects. Throws ConnectionError, with the server's own words if it refuses.
-  Client(const Url& url, std::chrono::milliseconds limit);
+  Client(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security = {});
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;

@@ -6,10 +6,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include "net/access.h"
 #include "net/connection_pool.h"
 #include "net/log_limiter.h"
 #include "net/server.h"
 #include "net/static_files.h"
+#include "net/tls.h"
 
 namespace weft::net {
 
@@ -29,6 +31,8 @@ struct Context {
 
   host::Host& host;
   ServerOptions options;
+  Access access;
+  TlsContext tls;  ///< nullptr: without a certificate
   StaticFiles files;
   ConnectionPool connections;
   /// Those beyond the limits, in a ring.

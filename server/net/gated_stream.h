@@ -9,16 +9,16 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/socket_base.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 
 #include "net/frame_gate.h"
+#include "net/transport.h"
 
 namespace weft::net {
 
-/// A TCP stream whose reads go through a FrameGate: the layer below a boost::beast::websocket::stream.
+/// A connection whose reads go through a FrameGate: the layer below a boost::beast::websocket::stream.
 class GatedStream {
  public:
-  using next_layer_type = boost::beast::tcp_stream;
+  using next_layer_type = Transport;
   using executor_type = next_layer_type::executor_type;
   using error_code = boost::beast::error_code;
 
@@ -88,11 +88,11 @@ class GatedStream {
 
     template <class Operation>
     void operator()(Operation& operation, error_code error = {}, std::size_t count = 0) {
-      next_layer_type& stream = gated.stream_;
+      Transport& transport = gated.stream_;
+      boost::beast::tcp_stream& stream = transport.next_layer();
       if (!std::exchange(started, true)) {
-        error_code ignored;
-        stream.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
         stream.expires_after(kTeardownTime);
+        return transport.async_end(std::move(operation));
       }
       bytes_left -= std::min(bytes_left, count);
       if (!error && bytes_left > 0) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/asio/dispatch.hpp>
+#include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -17,6 +18,7 @@
 #include <optional>
 #include <utility>
 
+#include "net/credentials.h"
 #include "net/origin.h"
 #include "net/request_rules.h"
 #include "net/websocket_session.h"
@@ -45,15 +47,20 @@ constexpr const char* kContentPolicy =
     "'self' 'unsafe-inline'; "
     "object-src 'none'; base-uri 'none'; frame-ancestors 'self'";
 
-std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
-
 /// What is answered, but for the headers that every answer has.
 struct Answer {
   http::status status = http::status::ok;
   std::shared_ptr<const std::string> content;
   std::string_view media_type = "text/plain; charset=utf-8";
   std::string etag;
+  std::string location = {};
 };
+
+bool is_this_machine(const boost::asio::ip::address& address) {
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).is_loopback();
+  return address.is_loopback();
+}
 
 Answer plain(http::status status, std::string text) {
   return {status, std::make_shared<const std::string>(std::move(text)), "text/plain; charset=utf-8", ""};
@@ -64,22 +71,40 @@ Answer plain(http::status status, std::string text) {
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(Context& context, ConnectionPool::Place place, tcp::socket socket)
-      : context_(context), place_(std::move(place)), stream_(std::move(socket)) {}
+      : context_(context), place_(std::move(place)), stream_(beast::tcp_stream(std::move(socket))) {}
+
+  void start() {
+    if (!context_.tls) return read();
+    tcp().expires_after(kRequestTime);
+    beast::async_detect_ssl(tcp(), buffer_, [self = shared_from_this()](error_code error, bool tls) {
+      if (error) return self->end();
+      if (!tls) return self->read();
+      self->stream_.begin_tls(self->context_.tls)
+          .async_handshake(boost::asio::ssl::stream_base::server, self->buffer_.data(),
+                           [self](error_code failed, std::size_t used) {
+                             self->buffer_.consume(used);
+                             if (failed) return self->cut();
+                             self->read();
+                           });
+    });
+  }
+
+  /// Ends it at once, whatever it does.
+  void cut() { tcp().close(); }
+
+ private:
+  beast::tcp_stream& tcp() { return stream_.next_layer(); }
 
   void read() {
     // A parser reads one message.
     parser_.emplace();
     parser_->header_limit(kHeaderBytes);
-    stream_.expires_after(kRequestTime);
+    tcp().expires_after(kRequestTime);
     http::async_read_header(
         stream_, buffer_, *parser_,
         [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
   }
 
-  /// Ends it at once, whatever it does.
-  void cut() { stream_.close(); }
-
- private:
   void on_read(error_code error) {
     if (error == http::error::header_limit) {
       return write(
@@ -109,11 +134,19 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     }
     const std::string_view target = view(request.target());
     const std::string_view path = target.substr(0, target.find('?'));
+    const bool of_scenes = path == kScenes || path.starts_with("/v1/scenes/");
+    // A browser asks so whether a page from elsewhere may show a token.
+    if (of_scenes && request.method() == http::verb::options)
+      return write(plain(http::status::no_content, ""), last);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
       return write(plain(http::status::method_not_allowed, "only GET and HEAD\n"), last);
     }
     if (path == kHealth) return write(health(), last);
     if (place_.refusal() != NoPlace::none) return write(no_place(), last);
+    if (must_be_secure()) return write(secure_address(), last);
+    if (of_scenes) {
+      if (const auto refusal = find_role()) return write(*refusal, last);
+    }
     if (path == kScenes || path == "/v1/scenes/") {
       const nlohmann::json list = {{"scenes", context_.host.list()}};
       Answer answer = plain(http::status::ok, list.dump());
@@ -138,6 +171,36 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     write(plain(http::status::not_found,
                 page_missing ? "this server was started without a page\n" : "not found\n"),
           last);
+  }
+
+  /// Where there is a certificate, a token is shown to this machine alone without TLS.
+  bool must_be_secure() {
+    if (!context_.tls || stream_.has_tls() || context_.options.insecure) return false;
+    error_code error;
+    const auto peer = tcp().socket().remote_endpoint(error).address();
+    return !error && !is_this_machine(peer);
+  }
+
+  Answer secure_address() const {
+    const HttpRequest& request = parser_->get();
+    Answer answer = plain(http::status::permanent_redirect, "this server speaks TLS: https: and wss:\n");
+    answer.location =
+        "https://" + std::string(view(request[http::field::host])) + std::string(view(request.target()));
+    return answer;
+  }
+
+  /// What the client may do from now on; an answer if it may do nothing.
+  std::optional<Answer> find_role() {
+    const Credentials credentials = credentials_of(parser_->get());
+    if (!credentials.fault.empty()) return plain(http::status::bad_request, credentials.fault + "\n");
+    const auto role = context_.access.role_of(credentials.token);
+    if (role) {
+      role_ = *role;
+      return std::nullopt;
+    }
+    return plain(http::status::unauthorized, credentials.token
+                                                 ? "the token is not one of this server's\n"
+                                                 : "a token is needed: Authorization: Bearer TOKEN\n");
   }
 
   /// Whether every scene steps in time; if not, which do not.
@@ -199,7 +262,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
                    last);
     }
-    start_websocket_session(context_, std::move(place_), std::move(stream_), request, *scene);
+    start_websocket_session(context_, std::move(place_), std::move(stream_), request, *scene, role_);
   }
 
   void write(const Answer& answer, bool last) {
@@ -213,6 +276,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set(http::field::cache_control, answer.etag.empty() ? "no-store" : "no-cache");
     if (!answer.etag.empty()) response_->set(http::field::etag, answer.etag);
     if (answer.status == http::status::method_not_allowed) response_->set(http::field::allow, "GET, HEAD");
+    if (answer.status == http::status::unauthorized)
+      response_->set(http::field::www_authenticate, "Bearer realm=\"weft\"");
+    if (!answer.location.empty()) response_->set(http::field::location, answer.location);
     if (answer.status == http::status::upgrade_required) {
       response_->set(http::field::upgrade, "websocket");
       response_->set(http::field::sec_websocket_version, kWebsocketVersion);
@@ -227,7 +293,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (answer.status != http::status::not_modified) response_->content_length(content_->size());
     if (!head) response_->body() = {content_->data(), content_->size()};
     response_->keep_alive(!last);
-    stream_.expires_after(kResponseTime);
+    tcp().expires_after(kResponseTime);
     http::async_write(stream_, *response_, [self = shared_from_this(), last](error_code error, std::size_t) {
       if (error || last) return self->end();
       self->read();
@@ -240,16 +306,18 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set(http::field::access_control_allow_origin,
                    beast::string_view(origin.data(), origin.size()));
     response_->set(http::field::vary, "Origin");
+    if (parser_->get().method() == http::verb::options)
+      response_->set(http::field::access_control_allow_headers, "Authorization");
   }
 
   void end() {
-    error_code ignored;
-    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    stream_.async_end([self = shared_from_this()](error_code) {});
   }
 
   Context& context_;
   ConnectionPool::Place place_;
-  beast::tcp_stream stream_;
+  Transport stream_;
+  protocol::Role role_ = protocol::Role::view;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::shared_ptr<const std::string> content_;  ///< what the response's body points into
@@ -284,7 +352,7 @@ void start_http_session(Context& context, tcp::socket socket) {
     if (const auto oldest = slot.lock()) oldest->cut();
     slot = session;
   }
-  session->read();
+  session->start();
 }
 
 }  // namespace weft::net

@@ -16,7 +16,7 @@ using http::field;
 namespace {
 
 constexpr std::array kLists{field::connection, field::upgrade, field::sec_websocket_protocol};
-constexpr std::array kSingle{field::host, field::origin, field::sec_websocket_key,
+constexpr std::array kSingle{field::host, field::origin, field::authorization, field::sec_websocket_key,
                              field::sec_websocket_version};
 
 /// A nonce of 16 bytes in base64: 22 digits, of which the last has but two bits, and two of padding.

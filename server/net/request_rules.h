@@ -4,10 +4,14 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <string>
+#include <string_view>
 
 namespace weft::net {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+/// Beast has a type of its own for what the standard has since C++17.
+inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
 /// Joins the lines of each header that is a list into one (RFC 9110, section 5.3), so that whoever looks at
 /// the first line sees them all.

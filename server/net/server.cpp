@@ -60,6 +60,7 @@ struct Server::Impl {
   void listen();
   void accept();
   void wait_for_signal();
+  void read_secrets();
   void stop();
 
   Context context;
@@ -79,6 +80,10 @@ void Server::Impl::listen() {
                                       tcp::resolver::passive | tcp::resolver::numeric_service, error);
   if (error) throw std::runtime_error("cannot listen at " + where + ": " + error.message());
   const tcp::endpoint endpoint = found.begin()->endpoint();
+  if (!endpoint.address().is_loopback() && options.tokens.empty() && !options.insecure)
+    throw std::runtime_error(
+        "will not listen at " + where +
+        ", which others reach, where anybody may do anything: give --tokens, or --insecure");
   acceptor.open(endpoint.protocol(), error);
   // So that a server can follow at once on one that just ended.
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
@@ -107,11 +112,29 @@ void Server::Impl::accept() {
 void Server::Impl::wait_for_signal() {
   signals.async_wait([this](boost::system::error_code error, int signal) {
     if (error) return;
+    if (signal == SIGHUP) {
+      try {
+        read_secrets();
+        if (!context.options.tokens.empty() || context.tls)
+          spdlog::info("signal {}: tokens and certificate read anew", signal);
+      } catch (const std::runtime_error& unusable) {
+        spdlog::error("signal {}: {}; those of before stay", signal, unusable.what());
+      }
+      return wait_for_signal();
+    }
     if (context.stopping) std::_Exit(128 + signal);
     spdlog::info("signal {}: stopping", signal);
     stop();
     wait_for_signal();
   });
+}
+
+/// Both or neither.
+void Server::Impl::read_secrets() {
+  const ServerOptions& options = context.options;
+  Access access = options.tokens.empty() ? Access() : Access::read(options.tokens);
+  if (!options.certificate.empty()) context.tls = server_tls(options.certificate, options.key);
+  context.access = std::move(access);
 }
 
 void Server::Impl::stop() {
@@ -129,10 +152,12 @@ void Server::Impl::stop() {
 
 Server::Server(host::Host& host, ServerOptions options)
     : impl_(std::make_unique<Impl>(host, std::move(options))) {
+  impl_->read_secrets();
   impl_->listen();
   // Before anybody is told the address: from then on a signal must end it in order.
   impl_->signals.add(SIGINT);
   impl_->signals.add(SIGTERM);
+  impl_->signals.add(SIGHUP);
   impl_->wait_for_signal();
 }
 
@@ -150,7 +175,7 @@ std::string Server::address() const {
   std::string host = address.to_string();
   if (address.is_unspecified()) host = "127.0.0.1";
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
-  return "http://" + host + ":" + std::to_string(port()) + "/";
+  return (impl_->context.tls ? "https://" : "http://") + host + ":" + std::to_string(port()) + "/";
 }
 
 void Server::run() {

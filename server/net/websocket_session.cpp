@@ -47,14 +47,14 @@ void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
 /// has for it, one message at a time.
 class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
  public:
-  WebsocketSession(Context& context, ConnectionPool::Place place, beast::tcp_stream stream,
-                   host::SceneRunner& scene)
+  WebsocketSession(Context& context, ConnectionPool::Place place, Transport stream, host::SceneRunner& scene,
+                   protocol::Role role)
       : context_(context),
         place_(std::move(place)),
         ws_(std::move(stream), context.host.limits().messages_per_second),
         read_pause_(ws_.get_executor()),
         close_deadline_(ws_.get_executor()),
-        connection_(context.host, scene, context.options.version) {
+        connection_(context.host, scene, role, context.options.version) {
     context_.viewers.insert(this);
   }
 
@@ -207,9 +207,10 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   host::Connection connection_;
 };
 
-void start_websocket_session(Context& context, ConnectionPool::Place place, beast::tcp_stream stream,
-                             const HttpRequest& request, host::SceneRunner& scene) {
-  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), scene)->start(request);
+void start_websocket_session(Context& context, ConnectionPool::Place place, Transport stream,
+                             const HttpRequest& request, host::SceneRunner& scene, protocol::Role role) {
+  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), scene, role)
+      ->start(request);
 }
 
 void end_websocket_session(WebsocketSession& session) {

@@ -1,16 +1,14 @@
 #pragma once
-#include <utility>
-// Boost 1.74 needs <utility> before it.
-#include <boost/beast/core/tcp_stream.hpp>
-
 #include "net/context.h"
 #include "net/request_rules.h"
+#include "net/transport.h"
 
 namespace weft::net {
 
-/// Makes the connection a WebSocket of `scene`, where a place is reserved for it.
-void start_websocket_session(Context& context, ConnectionPool::Place place, boost::beast::tcp_stream stream,
-                             const HttpRequest& request, host::SceneRunner& scene);
+/// Makes the connection a WebSocket of `scene`, where a place is reserved for it, that may do what `role`
+/// may.
+void start_websocket_session(Context& context, ConnectionPool::Place place, Transport stream,
+                             const HttpRequest& request, host::SceneRunner& scene, protocol::Role role);
 
 /// Tells a viewer that the server stops, and closes with 1001.
 void end_websocket_session(WebsocketSession& session);

@@ -32,7 +32,7 @@ export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAG
   exited.catch(() => {});
   const lines = createInterface({input: child.stdout});
   const [line] = await Promise.race([once(lines, 'line'), exited]);
-  const address = line.match(/http:\/\/\S+?(?=\/?$)/)[0];
+  const address = line.match(/https?:\/\/\S+?(?=\/?$)/)[0];
   return {
     address,
     port: Number(new URL(address).port),

@@ -42,7 +42,7 @@ class Server:
         self._log_reader.start()
         ready, _, _ = select.select([self.process.stdout], [], [], GENEROUS)
         line = self.process.stdout.readline() if ready else ""
-        match = re.fullmatch(r"Weft is at http://127\.0\.0\.1:(\d+)/\n", line)
+        match = re.fullmatch(r"Weft is at https?://127\.0\.0\.1:(\d+)/\n", line)
         if not match:
             self.end()
             raise AssertionError(f"no address but {line!r}; log: {self.log_lines}")

@@ -78,21 +78,36 @@ export class Hud {
 
   showConnection(state) {
     byId('connection').dataset.state = state;
-    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected'}[state]);
+    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected', locked: 'not connected'}[state]);
   }
 
   /** @param {string|null} text null takes it away @param {boolean} retry offer to try at once */
   showBanner(text, retry = false) {
     byId('banner').hidden = text === null;
     byId('banner-retry').hidden = !retry;
+    byId('banner-token').hidden = true;
     if (text !== null) write('banner-text', text);
+  }
+
+  /** Asks for a token until one is given. @param {string} why @param {(token: string) => void} give */
+  askToken(why, give) {
+    this.showBanner(why);
+    const form = byId('banner-token');
+    form.hidden = false;
+    form.onsubmit = (event) => {
+      event.preventDefault();
+      give(byId('token').value.trim());
+    };
+    byId('token').focus();
   }
 
   onRetry(action) {
     byId('banner-retry').addEventListener('click', action);
   }
 
+  /** One text once at a time. */
   toast(text, kind = 'error') {
+    if ([...byId('toasts').children].some((shown) => shown.textContent === text)) return;
     const toast = Object.assign(document.createElement('div'), {className: kind === 'error' ? 'toast' : 'toast plain', textContent: text});
     byId('toasts').append(toast);
     setTimeout(() => toast.remove(), kToastMs);

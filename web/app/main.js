@@ -41,6 +41,8 @@ function start(settings) {
   let chosenBall = null;
   let newBall = null;        // chosen as soon as a frame has it: the answer may come before
   let retryAt = null;
+  let {token} = settings;
+  let mayControl = true;     // this page's role is more than to look
 
   // --- What the viewer wants ---
 
@@ -59,7 +61,7 @@ function start(settings) {
   };
   const actions = {
     joinScene: async (scene) => {
-      if (!link.connected) return link.open(settings.server, scene);
+      if (!link.connected) return link.open(settings.server, scene, token);
       if (!(await ask(commands.joinScene(scene)))) panel.setScenes(scenes, sceneShown);
     },
     setPaused: (paused) => ask(paused ? commands.pause() : commands.resume()),
@@ -183,14 +185,11 @@ function start(settings) {
 
   link.addEventListener('state', ({detail}) => {
     hud.showConnection(detail.state);
-    panel.setLive(detail.state === 'open');
+    const live = detail.state === 'open';
+    panel.setLive(live, mayControl);
     clothHand.forget();
     hand.forget();
-    obstacles.setLive(detail.state === 'open');
-    cost.setLive(detail.state === 'open');
-    effects.setLive(detail.state === 'open');
-    material.setLive(detail.state === 'open');
-    zones.setLive(detail.state === 'open');
+    for (const part of [obstacles, cost, effects, material, zones]) part.setLive(live && mayControl);
     retryAt = null;
     if (detail.state === 'open') {
       hud.showBanner(null);
@@ -204,6 +203,11 @@ function start(settings) {
       hud.showBanner(detail.reason);
       panel.setScenes((scenes = detail.scenes), null);
       document.getElementById('scene').disabled = false;
+    } else if (detail.state === 'locked') {
+      hud.askToken(detail.reason, (given) => {
+        token = given;
+        link.open(settings.server, sceneShown ?? settings.scene, token);
+      });
     }
   });
 
@@ -223,6 +227,7 @@ function start(settings) {
   };
 
   const handlers = {
+    welcome: ({role}) => (mayControl = role !== 'view'),
     scene: (message) => {
       clothHand.forget();
       hand.forget();
@@ -357,7 +362,7 @@ function start(settings) {
   }
 
   requestAnimationFrame(draw);
-  link.open(settings.server, settings.scene);
+  link.open(settings.server, settings.scene, token);
   publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff: () => effectsOff, effects, material, panel, obstacles});
 }
 

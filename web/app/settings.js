@@ -6,6 +6,7 @@ const kFieldOfView = 42;  // degrees
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" or "ws://host/path", without a slash at its end
  * @property {string|null} scene name of the scene; null: the first one the service lists
+ * @property {string|null} token shown to the service; null: none
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
  * @property {boolean} wireframe
@@ -14,7 +15,8 @@ const kFieldOfView = 42;  // degrees
 
 /**
  * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, `?fov=75` (degrees, 20 to 100) for a wider
- * or longer lens, and `?quality=low` for machines that draw without a graphics card.
+ * or longer lens, and `?quality=low` for machines that draw without a graphics card. `#token=T` is the token for a service that asks
+ * for one: what stands behind `#` stays in the browser.
  * @param {URL} address the page's own
  * @param {number} devicePixelRatio
  * @returns {Settings}
@@ -25,6 +27,7 @@ export function readSettings(address, devicePixelRatio) {
   return {
     server: serverAddress(parameters.get('server'), address),
     scene: parameters.get('scene') || null,
+    token: new URLSearchParams(address.hash.slice(1)).get('token') || null,
     high,
     // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
     pixelRatio: Math.min(devicePixelRatio, high ? 2 : 1),

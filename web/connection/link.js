@@ -17,7 +17,7 @@ class LinkCommands extends Commands {
  * The page's end of the connection. The socket itself, decoding and reconnecting live in worker.js.
  *
  * Events (all CustomEvents, payload in `detail`):
- *   state    {state: 'connecting'|'open'|'lost'|'refused', ...}  see worker.js
+ *   state    {state: 'connecting'|'open'|'lost'|'refused'|'locked', ...}  see worker.js
  *   message  a server message that is no reply: welcome, scene, event, stats, curve, notice
  *   frame    {frame, arrivedMs, bytes}
  */
@@ -32,9 +32,9 @@ export class Link extends EventTarget {
     this.connected = false;
   }
 
-  /** Connects and stays connected until the page goes. `scene` null: the first the service lists. */
-  open(server, scene) {
-    this.worker.postMessage({kind: 'open', server, scene});
+  /** Connects and stays connected until the page goes. `scene` null: the first the service lists; `token` null: none is shown. */
+  open(server, scene, token) {
+    this.worker.postMessage({kind: 'open', server, scene, token});
   }
 
   /** Does not wait any longer before the next attempt. */

@@ -3,7 +3,7 @@
  * needs beside: the first scene's name, a plain word when there is no such scene, a pulse.
  *
  * From the page:
- *   {kind: 'open', server, scene}   connect; scene null: the first the server lists
+ *   {kind: 'open', server, scene, token}   connect; scene null: the first the server lists; token null: none
  *   {kind: 'retry'}                 do not wait any longer
  *   {kind: 'request', key, message}
  *   {kind: 'taken'}                 the last frame has been taken: only then comes the next
@@ -12,12 +12,13 @@
  *   {kind: 'state', state: 'open'}
  *   {kind: 'state', state: 'lost', reason, retryMs}      tries again by itself
  *   {kind: 'state', state: 'refused', reason, scenes}    there is no such scene; waits for another 'open'
+ *   {kind: 'state', state: 'locked', reason}             a token is needed, or another; waits for another 'open'
  *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}, or {op: 'surface', scene, obstacle,
  *                                   surface}: what one of the scene's meshes looks like
  *   {kind: 'reply', key, message | error}
  *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
  */
-import {backoff, WeftClient} from '../protocol/weft.js';
+import {backoff, bearer, WeftClient} from '../protocol/weft.js';
 
 const kBeatMs = 5000;  // between two pings
 const kListMs = 4000;  // longest wait for the list of scenes
@@ -33,6 +34,7 @@ class CountingSocket extends WebSocket {
 
 let server = null;
 let scene = null;
+let token = null;
 let client = null;       // whatever an older one says is ignored
 let waiting = null;      // timer of a wait before the list of scenes is asked for again
 let waits = false;       // between attempts, so that 'retry' means something
@@ -41,7 +43,7 @@ let taken = () => {};
 self.addEventListener('message', ({data}) => {
   switch (data.kind) {
     case 'open':
-      ({server, scene} = data);
+      ({server, scene, token} = data);
       open();
       break;
     case 'retry':
@@ -62,6 +64,7 @@ async function open(attempt = 0) {
   const mine = (client = new WeftClient(`${server}/v1/scenes/${encodeURIComponent(scene ?? '')}`, {
     WebSocket: CountingSocket,
     client: 'weft page',
+    token: token ?? undefined,
     reconnect: true,
     local: true,
     onmessage: (message) => {
@@ -80,9 +83,11 @@ async function open(attempt = 0) {
 
 /** Asks for the list of scenes and opens the first; as long as there is no answer, again and again. */
 async function chooseFirst(mine, attempt) {
-  const scenes = await listScenes();
+  const {scenes, locked} = await listScenes();
   if (mine !== client) return;
-  if (scenes?.length) {
+  if (locked) {
+    lock(mine);
+  } else if (scenes?.length) {
     scene = scenes[0].name;
     open();
   } else {
@@ -92,14 +97,22 @@ async function chooseFirst(mine, attempt) {
   }
 }
 
-/** The scenes, or null when they cannot be had: no server, or one of another origin that lets no other page read them. */
+/** The scenes, if they can be had: not of a server that lets no page of another origin read them; and whether a token is in want. */
 async function listScenes() {
   try {
-    const answer = await fetch(`${server.replace(/^ws/, 'http')}/v1/scenes`, {signal: AbortSignal.timeout(kListMs)});
-    return answer.ok ? (await answer.json()).scenes : null;
+    const address = `${server.replace(/^ws/, 'http')}/v1/scenes`;
+    const answer = await fetch(address, {signal: AbortSignal.timeout(kListMs), headers: bearer(token)});
+    return {scenes: answer.ok ? (await answer.json()).scenes : null, locked: answer.status === 400 || answer.status === 401};
   } catch {
-    return null;
+    return {scenes: null, locked: false};
   }
+}
+
+/** Nothing is tried any more until the page gives another token. */
+function lock(mine) {
+  mine.close();
+  waits = false;
+  tell('locked', {reason: token ? 'This server does not know that token.' : 'This server asks for a token.'});
 }
 
 /** Asks for what the scene's meshes look like. One that does not come is not drawn. */
@@ -120,8 +133,10 @@ async function follow(mine, state, {code, error, delay}) {
   } else if (state === 'waiting' && error) {
     lost(delay, `No answer from ${new URL(server).host}.`);
     // A socket does not say why it was refused; the list does.
-    const scenes = await listScenes();
-    if (mine !== client || mine.connected || !scenes || scenes.some(({name}) => name === scene)) return;
+    const {scenes, locked} = await listScenes();
+    if (mine !== client || mine.connected) return;
+    if (locked) return lock(mine);
+    if (!scenes || scenes.some(({name}) => name === scene)) return;
     mine.close();
     waits = false;
     tell('refused', {reason: `This server has no scene “${scene}”. Choose one from the list.`, scenes});

@@ -38,13 +38,15 @@ export class Panel {
     this.#wireWind();
     this.#wireBalls();
     this.#wireFold();
-    this.setLive(false);
+    this.setLive(false, true);
   }
 
-  /** Controls work only while connected. */
-  setLive(live) {
+  /** Controls work only while connected, and for those who may do more than look. */
+  setLive(connected, mayControl) {
+    const live = connected && mayControl;
     this.live = live;
-    for (const id of ['pause', 'reset', 'scene', 'ball-add']) byId(id).disabled = !live;
+    byId('scene').disabled = !connected;
+    for (const id of ['pause', 'reset', 'ball-add']) byId(id).disabled = !live;
     byId('step').disabled = !live || !this.paused;
     this.#enableWind();
     this.#enableBalls();

@@ -543,6 +543,7 @@ export class Commands {
  *   `open` after each (re)connection, `waiting` before each attempt to reconnect (after `delay` ms), `closed` at the end
  * @property {(error: Error) => void} [onerror] malformed frames, and what onframe throws; default: console.error
  * @property {string} [client] name told to the server
+ * @property {string} [token] the server's, where it asks for one: 16 to 128 letters, digits or any of "-._~"
  * @property {number} [window] unacknowledged frames, 1..8 (default 2); 0: no flow control, the server sends as fast as it can
  * @property {boolean} [local] as decodeFrame's (default false)
  * @property {number} [timeout] ms to wait for a connection or a reply (default 5000)
@@ -556,6 +557,9 @@ const BACKOFF_FIRST_MS = 250, BACKOFF_MOST_MS = 10000;
 export function backoff(attempt, random = Math.random) {
   return Math.min(BACKOFF_MOST_MS, BACKOFF_FIRST_MS * 2 ** Math.min(attempt, 20)) * (0.5 + 0.5 * random());
 }
+
+/** The headers by which a request shows a token, if there is one. @param {string|null} [token] @returns {Record<string, string>} */
+export const bearer = (token) => (token ? { Authorization: `Bearer ${token}` } : {});
 
 /** One connection to one scene. Use `connect`, or construct and `open()` to have the object before the connection. */
 export class WeftClient extends Commands {
@@ -659,7 +663,7 @@ export class WeftClient extends Commands {
   /** What a mesh of the scene looks like. @param {number} obstacle its place in `scene` @returns {Promise<Surface>} */
   async surface(obstacle) {
     const place = new URL(`${encodeURIComponent(this.scene.name)}/meshes/${obstacle}`, this.#url.replace(/^ws/, 'http'));
-    const answer = await fetch(place, { signal: AbortSignal.timeout(this.#options.timeout) });
+    const answer = await fetch(place, { signal: AbortSignal.timeout(this.#options.timeout), headers: bearer(this.#options.token) });
     if (!answer.ok) throw new WeftError('not_found', await answer.text());
     return answer.json();
   }
@@ -706,9 +710,9 @@ export class WeftClient extends Commands {
   /** One attempt to connect: done when the server has greeted, sent the scene, and answered `hello`. */
   async #attempt() {
     if (this.#closed) throw new WeftError('closed', 'closed by this client');
-    const { timeout, window: frames, client } = this.#options;
+    const { timeout, window: frames, client, token } = this.#options;
     const Socket = this.#options.WebSocket ?? globalThis.WebSocket ?? (await import('ws')).default;
-    const socket = new Socket(this.#url, SUBPROTOCOL);
+    const socket = new Socket(this.#url, token ? [SUBPROTOCOL, `weft.token.${token}`] : SUBPROTOCOL);
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
     this.welcome = this.scene = this.#newest = null;

@@ -17,6 +17,7 @@ import asyncio
 import dataclasses
 import json
 import math
+import ssl
 import struct
 import sys
 import typing
@@ -282,8 +283,9 @@ def message_text(op: str, members: typing.Optional[dict] = None, id: typing.Opti
 # --- The client ---
 
 async def connect(url: str, *, client: typing.Optional[str] = None, window: int = 2, timeout: float = 5.0,
-                  on_message: typing.Optional[typing.Callable[[dict], None]] = None) -> "Client":
-    """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME: done when the server has greeted, described the scene, and agreed
+                  on_message: typing.Optional[typing.Callable[[dict], None]] = None, token: typing.Optional[str] = None,
+                  tls: typing.Optional[ssl.SSLContext] = None) -> "Client":
+    """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME or wss://: done when the server has greeted, described the scene, and agreed
     on the flow of frames.
 
     client      name told to the server
@@ -291,8 +293,10 @@ async def connect(url: str, *, client: typing.Optional[str] = None, window: int 
     timeout     s to wait for the connection, and for each reply
     on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `curve`,
                 `notice`, `error`
+    token       the server's, where it asks for one
+    tls         whom to trust with wss://, as ssl.create_default_context(cafile=...); without one whom this machine trusts
     """
-    connection = Client(timeout, on_message)
+    connection = Client(timeout, on_message, token, tls)
     try:
         await asyncio.wait_for(connection._open(url), timeout)
     except asyncio.TimeoutError:
@@ -313,11 +317,13 @@ async def connect(url: str, *, client: typing.Optional[str] = None, window: int 
 class Client:
     """A connection to one scene. Made by `connect`; iterate over it for frames."""
 
-    def __init__(self, timeout: float, on_message: typing.Optional[typing.Callable[[dict], None]]):
+    def __init__(self, timeout: float, on_message: typing.Optional[typing.Callable[[dict], None]],
+                 token: typing.Optional[str] = None, tls: typing.Optional[ssl.SSLContext] = None):
         self.welcome: typing.Optional[dict] = None  #: the server's `welcome`
         self.scene: typing.Optional[dict] = None    #: the newest `scene` message
         self.stats: typing.Optional[dict] = None    #: the newest `stats` message
         self._timeout, self._on_message = timeout, on_message
+        self._headers, self._tls = {"Authorization": f"Bearer {token}"} if token else {}, tls
         self._socket = None
         self._reader: typing.Optional[asyncio.Task] = None
         self._acks = False
@@ -333,8 +339,9 @@ class Client:
     async def _open(self, url):
         self._url = url
         # The server negotiates no compression; saying so spares the offer.
+        secure = {"ssl": self._tls} if self._tls and url.startswith("wss:") else {}
         self._socket = await websockets.connect(url, subprotocols=[SUBPROTOCOL], compression=None, max_size=MAX_MESSAGE_BYTES,
-                                                open_timeout=None)
+                                                open_timeout=None, extra_headers=self._headers, **secure)
         self._reader = asyncio.create_task(self._read())
         await self._greeted.wait()
         if self._lost:
@@ -429,8 +436,9 @@ class Client:
         `triangles`, three vertices each, counterclockwise as seen from outside."""
         place = f"{urllib.parse.quote(self.scene['name'], safe='')}/meshes/{obstacle}"
         url = urllib.parse.urljoin("http" + self._url[len("ws"):], place)
+        request = urllib.request.Request(url, headers=self._headers)
         try:
-            with await asyncio.to_thread(urllib.request.urlopen, url, timeout=self._timeout) as answer:
+            with await asyncio.to_thread(urllib.request.urlopen, request, timeout=self._timeout, context=self._tls) as answer:
                 return json.loads(answer.read())
         except urllib.error.HTTPError as error:
             raise WeftError("not_found", f"{url}: {error}") from error

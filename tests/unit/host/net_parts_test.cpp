@@ -163,11 +163,18 @@ TEST(Url, IsTakenApart) {
   EXPECT_EQ(bare.target, "/");
   EXPECT_EQ(Url::parse("http://[::1]:81/").host, "[::1]");
   EXPECT_EQ(Url::parse("http://[::1]").port, "80");
+  EXPECT_FALSE(full.secure);
+  for (const char* text : {"wss://weft.example/v1/scenes/flag", "https://weft.example/v1/scenes/flag"}) {
+    const Url secure = Url::parse(text);
+    EXPECT_TRUE(secure.secure);
+    EXPECT_EQ(secure.port, "443");
+    EXPECT_EQ(secure.target, full.target);
+  }
 }
 
 TEST(Url, OthersAreRefused) {
-  for (const char* text :
-       {"", "flag", "wss://a/", "http://", "http://:80/", "ws://a:b/", "ws://a:/", "ws://a:123456/"}) {
+  for (const char* text : {"", "flag", "ftp://a/", "://a/", "http://", "http://:80/", "ws://a:b/", "ws://a:/",
+                           "ws://a:123456/"}) {
     EXPECT_THROW(Url::parse(text), std::invalid_argument) << text;
   }
 }

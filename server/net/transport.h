@@ -1,0 +1,87 @@
+#pragma once
+/// A TCP connection, with TLS on it or without: what HTTP and WebSockets run on, at both ends.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+// Boost 1.74 needs <utility> before it.
+#include <boost/asio/compose.hpp>
+#include <boost/asio/socket_base.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/beast/core/error.hpp>
+#include <boost/beast/core/role.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+
+namespace weft::net {
+
+class Transport {
+ public:
+  using next_layer_type = boost::beast::tcp_stream;
+  using executor_type = next_layer_type::executor_type;
+  using error_code = boost::beast::error_code;
+  using Tls = boost::asio::ssl::stream<next_layer_type&>;
+
+  explicit Transport(next_layer_type stream) : layers_(std::make_unique<Layers>(std::move(stream))) {}
+
+  executor_type get_executor() { return tcp().get_executor(); }
+  next_layer_type& next_layer() { return tcp(); }
+  const next_layer_type& next_layer() const { return layers_->tcp; }
+
+  /// From now on what is sent and received is encrypted; a handshake on the returned stream comes first.
+  Tls& begin_tls(std::shared_ptr<boost::asio::ssl::context> context) {
+    layers_->context = std::move(context);
+    return layers_->tls.emplace(tcp(), *layers_->context);
+  }
+  bool has_tls() const { return layers_->tls.has_value(); }
+
+  template <class Buffers, class Handler>
+  auto async_read_some(const Buffers& buffers, Handler&& handler) {
+    if (layers_->tls) return layers_->tls->async_read_some(buffers, std::forward<Handler>(handler));
+    return tcp().async_read_some(buffers, std::forward<Handler>(handler));
+  }
+  template <class Buffers, class Handler>
+  auto async_write_some(const Buffers& buffers, Handler&& handler) {
+    if (layers_->tls) return layers_->tls->async_write_some(buffers, std::forward<Handler>(handler));
+    return tcp().async_write_some(buffers, std::forward<Handler>(handler));
+  }
+
+  /// Says that nothing more is sent, within the time that the TCP stream has; handler(error_code).
+  template <class Handler>
+  auto async_end(Handler&& handler) {
+    return boost::asio::async_compose<Handler, void(error_code)>(End{*this}, handler, tcp());
+  }
+  /// A WebSocket right on it calls this at its end.
+  template <class Handler>
+  friend void async_teardown(boost::beast::role_type, Transport& transport, Handler&& handler) {
+    transport.async_end(std::forward<Handler>(handler));
+  }
+
+ private:
+  struct Layers {
+    explicit Layers(next_layer_type stream) : tcp(std::move(stream)) {}
+    next_layer_type tcp;
+    std::shared_ptr<boost::asio::ssl::context> context;
+    std::optional<Tls> tls;
+  };
+
+  struct End {
+    Transport& transport;
+    bool said = false;
+
+    template <class Operation>
+    void operator()(Operation& operation, error_code error = {}) {
+      if (transport.has_tls() && !std::exchange(said, true))
+        return transport.layers_->tls->async_shutdown(std::move(operation));
+      error_code ignored;
+      transport.tcp().socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
+      operation.complete(error);
+    }
+  };
+
+  next_layer_type& tcp() { return layers_->tcp; }
+
+  std::unique_ptr<Layers> layers_;  ///< the TLS stream refers to the TCP stream
+};
+
+}  // namespace weft::net
