@@ -84,7 +84,7 @@ int serve(ServeOptions options) {
   if (options.quiet) spdlog::set_level(spdlog::level::warn);
 
   const ThreadLimit limit = options.threads.limit();
-  host::Host host(options.limits);
+  host::Host host(options.limits, WEFT_VERSION);
   if (!load_scenes(options, host)) return kFailed;
   if (options.server.web.empty()) options.server.web = find_page();
   options.server.version = WEFT_VERSION;

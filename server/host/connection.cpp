@@ -42,14 +42,14 @@ Connection::Pace Connection::receive(std::string_view text, TimePoint now) {
                           "more than " + std::to_string(host_.limits().messages_per_second) +
                               " messages in a second; this one was dropped"};
     error.re = request ? request->id : std::get<protocol::Error>(parsed).re;
-    send(protocol::error_text(error));
+    refuse(error);
     return Pace::slow_down;
   }
   if (request) {
     if (may_give(*request))
       std::visit([&](const auto& command) { answer(*request, command); }, request->command);
   } else {
-    send(protocol::error_text(std::get<protocol::Error>(parsed)));
+    refuse(std::get<protocol::Error>(parsed));
   }
   return Pace::go_on;
 }
@@ -125,7 +125,12 @@ void Connection::ok(const Request& request, const json& extra) {
 }
 
 void Connection::refuse(const Request& request, const char* code, const char* path, std::string message) {
-  send(protocol::error_text({request.id, code, path, std::move(message)}));
+  refuse({request.id, code, path, std::move(message)});
+}
+
+void Connection::refuse(const protocol::Error& error) {
+  host_.metrics().refused_command(error.code);
+  send(protocol::error_text(error));
 }
 
 void Connection::send(std::string text) { viewer_->send(make_text(std::move(text))); }

@@ -49,6 +49,7 @@ class Connection {
   void send(std::string text);
   void too_many_wait(const protocol::Request& request);
   void refuse(const protocol::Request& request, const char* code, const char* path, std::string message);
+  void refuse(const protocol::Error& error);
 
   Host& host_;
   SceneRunner* scene_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/world/simulation.h"
+#include "host/metrics.h"
 
 namespace weft::host {
 
@@ -25,6 +26,8 @@ class GuardLog {
   std::vector<Notice> stepped(const Simulation<float>& simulation);
   /// What a viewer is told who comes now: a notice for each cloth that is frozen.
   std::vector<Notice> standing() const;
+  /// How often each thing has happened.
+  SceneMetrics::Guard counts() const { return {redone_, frozen_, balls_stopped_, crowded_}; }
   /// `stats`' member `guard`; null while nothing has happened.
   nlohmann::json stats_json() const;
 

@@ -6,6 +6,8 @@
 
 namespace weft::host {
 
+Host::Host(const protocol::Limits& limits, const std::string& version) : limits_(limits), metrics_(version) {}
+
 Host::~Host() {
   // All of them first: each then ends while others are waited for.
   for (const auto& scene : scenes_) scene->request_stop();
@@ -13,7 +15,7 @@ Host::~Host() {
 
 void Host::add(scene::Scene scene) {
   if (find(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
-  scenes_.push_back(std::make_unique<SceneRunner>(std::move(scene), limits_));
+  scenes_.push_back(std::make_unique<SceneRunner>(std::move(scene), limits_, metrics_));
 }
 
 SceneRunner* Host::find(std::string_view name) const {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/metrics.h"
 #include "host/scene_runner.h"
 
 namespace weft::host {
@@ -11,7 +12,7 @@ namespace weft::host {
 /// The scenes being served, by name. Fill it first; after that every method may be called from any thread.
 class Host {
  public:
-  explicit Host(const protocol::Limits& limits = {}) : limits_(limits) {}
+  explicit Host(const protocol::Limits& limits = {}, const std::string& version = "");
   /// Interrupts all scenes' steps, and waits for their threads.
   ~Host();
   Host(const Host&) = delete;
@@ -23,12 +24,14 @@ class Host {
   SceneRunner* find(std::string_view name) const;
   const std::vector<std::unique_ptr<SceneRunner>>& scenes() const { return scenes_; }
   const protocol::Limits& limits() const { return limits_; }
+  Metrics& metrics() { return metrics_; }
 
   /// `[{"name","title","viewers","cloths"}]`, in the order they were added.
   nlohmann::json list() const;
 
  private:
   protocol::Limits limits_;
+  Metrics metrics_;  // before the scenes, which count in it
   std::vector<std::unique_ptr<SceneRunner>> scenes_;
 };
 

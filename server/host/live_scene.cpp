@@ -311,6 +311,13 @@ void LiveScene::send_stats(double rate) {
     seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)), "stats");
 }
 
+std::vector<int> LiveScene::viewers_by_level() const {
+  std::vector<int> viewers(kMaxLevel + 1, 0);
+  for (const Seat& seat : seats_)
+    ++viewers[static_cast<std::size_t>(*std::max_element(seat.levels.begin(), seat.levels.end()))];
+  return viewers;
+}
+
 void LiveScene::set_paused(bool paused) {
   if (paused_ == paused) return;
   paused_ = paused;

@@ -38,8 +38,10 @@ class LiveScene {
   /// A viewer came, as `visit` (Viewer::enter): it is sent `scene`, and a frame at the next publish().
   void add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
   void remove_viewer(const Viewer* viewer, std::uint64_t visit);
-  /// Carries out one of its commands and answers it. The scene is between two steps.
-  void apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit, const SceneRequest& request);
+  /// Carries out one of its commands and answers it; the code of the error that was the answer, if one was.
+  /// The scene is between two steps.
+  std::optional<std::string> apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+                                   const SceneRequest& request);
 
   /// False while nobody looks, and while paused but for the steps asked for.
   bool wants_step() const;
@@ -73,6 +75,9 @@ class LiveScene {
   bool slow() const { return slow_; }
   /// What viewers were told of the step guard since the last call, for the log.
   std::vector<std::string> take_guard_texts() { return std::exchange(guard_texts_, {}); }
+  SceneMetrics::Guard guard_counts() const { return guard_.counts(); }
+  /// How many viewers have their finest cloth at each level, from 0.
+  std::vector<int> viewers_by_level() const;
   bool empty() const { return seats_.empty(); }
 
  private:

@@ -23,11 +23,11 @@ bool has_wind(const SimulationDescription& description) {
 
 }  // namespace
 
-void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
-                      const SceneRequest& request) {
+std::optional<std::string> LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
+                                            const SceneRequest& request) {
   const auto seat = std::find_if(seats_.begin(), seats_.end(),
                                  [&](const Seat& s) { return s.viewer == viewer && s.visit == visit; });
-  if (seat == seats_.end()) return;
+  if (seat == seats_.end()) return std::nullopt;
   // Most commands are felt in the next step; those that are not say so.
   takes_effect_ = simulation_.step_count() + 1;
   Outcome outcome =
@@ -39,6 +39,8 @@ void LiveScene::apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit
     viewer->send(make_text(protocol::ok_text(*request.id, takes_effect_, std::get<json>(outcome))));
   }
   tell_curve();
+  const auto* error = std::get_if<Error>(&outcome);
+  return error != nullptr ? std::optional(error->code) : std::nullopt;
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {

@@ -36,13 +36,15 @@ struct SceneRunner::Task {
   std::variant<Join, Leave, SceneRequest, Call, Studied> what;
 };
 
-SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits)
+SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics)
     : name_(scene.name),
       title_(scene.title),
       cloths_(scene.simulation.cloths.size()),
       max_viewers_(limits.viewers),
       time_step_(scene.simulation.time_step),
       meshes_(mesh_texts(scene.simulation)),
+      metrics_(metrics),
+      scene_metrics_(metrics.of_scene(scene.name)),
       live_(std::make_unique<LiveScene>(std::move(scene), limits)),
       clock_(time_step_),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
@@ -130,7 +132,7 @@ StepClock::TimePoint SceneRunner::next_work() const {
 
 void SceneRunner::carry_out(Task& task) {
   if (const auto* request = std::get_if<SceneRequest>(&task.what)) {
-    live_->apply(task.viewer, task.visit, *request);
+    if (const auto code = live_->apply(task.viewer, task.visit, *request)) metrics_.refused_command(*code);
     task.viewer->command_answered();
   } else if (const auto* call = std::get_if<Call>(&task.what)) {
     (*call)();
@@ -142,6 +144,8 @@ void SceneRunner::carry_out(Task& task) {
     live_->add_viewer(task.viewer, task.visit);
   } else {
     live_->remove_viewer(task.viewer.get(), task.visit);
+    scene_metrics_.viewers(live_->viewers_by_level());
+    if (live_->empty()) scene_metrics_.rate(0);
   }
 }
 
@@ -151,6 +155,7 @@ bool SceneRunner::step_if_due() {
   running_ = in_real_time;
   if (!live_->wants_step() || (running_ && Clock::now() < clock_.next())) return false;
   live_->step();
+  count_step();
   for (const std::string& text : live_->take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
   if (!running_) {
     ++steps_made_;
@@ -165,6 +170,17 @@ bool SceneRunner::step_if_due() {
   return true;
 }
 
+void SceneRunner::count_step() {
+  const Simulation<float>& simulation = live_->simulation();
+  SceneMetrics::Step step{simulation.profile().total, running_ ? time_step_ : 0};
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
+    step.energy_lost += simulation.last_advance(i).energy_lost;
+    step.energy_given_back += simulation.last_advance(i).energy_given_back;
+  }
+  scene_metrics_.stepped(step);
+  scene_metrics_.guarded(live_->guard_counts());
+}
+
 void SceneRunner::publish_if_due(bool stepped) {
   const auto now = Clock::now();
   // A step in real time is shown at once, and so is the last of those asked for. What changes more often, by
@@ -173,6 +189,7 @@ void SceneRunner::publish_if_due(bool stepped) {
   if (!shown_at_once && now < publish_due_) return;
   if (live_->frame_due() || !running_) live_->tell_events();
   live_->publish(server_ms());
+  scene_metrics_.encoded(live_->encoder().encodes() - encodes_);
   encodes_ = live_->encoder().encodes();
   publish_due_ = now + kPublishPeriod;
 }
@@ -196,9 +213,12 @@ void SceneRunner::study_if_wanted() {
 void SceneRunner::send_stats_if_due() {
   const auto now = Clock::now();
   if (live_->empty() || now < stats_due_) return;
+  scene_metrics_.viewers(live_->viewers_by_level());
   const StepClock::Seconds since = now - stats_sent_;
   const double made = static_cast<double>(std::exchange(steps_made_, 0)) * time_step_ / since.count();
-  live_->send_stats(running_ ? clock_.rate() : made);
+  const double rate = running_ ? clock_.rate() : made;
+  scene_metrics_.rate(rate);
+  live_->send_stats(rate);
   stats_sent_ = now;
   stats_due_ = std::max(stats_due_ + kStatsPeriod, now);
 }

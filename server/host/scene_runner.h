@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "host/metrics.h"
 #include "host/scene_request.h"
 #include "host/step_clock.h"
 #include "host/viewer.h"
@@ -31,7 +32,8 @@ class SceneRunner {
   /// Requests that may wait for the step boundary.
   static constexpr std::size_t kMaxWaiting = 1024;
 
-  SceneRunner(scene::Scene scene, const protocol::Limits& limits);
+  /// Counts in `metrics`, which must outlive it.
+  SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics);
   /// Interrupts the step in hand, and waits for the thread.
   ~SceneRunner();
   SceneRunner(const SceneRunner&) = delete;
@@ -83,6 +85,7 @@ class SceneRunner {
   void study_if_wanted();
   /// Whether a step was made.
   bool step_if_due();
+  void count_step();
   void publish_if_due(bool stepped);
   void send_stats_if_due();
   /// Comings, goings and the outcome of a study are never refused: there are no more of them than
@@ -103,6 +106,8 @@ class SceneRunner {
   std::vector<Task> waiting_;  ///< guarded by mutex_
 
   // The thread's own.
+  Metrics& metrics_;
+  SceneMetrics scene_metrics_;
   const std::unique_ptr<LiveScene> live_;
   StepClock clock_;
   StepClock::TimePoint stats_due_{}, stats_sent_{}, publish_due_{};

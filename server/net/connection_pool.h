@@ -35,6 +35,8 @@ class ConnectionPool {
   ConnectionPool(const ConnectionPool&) = delete;
   ConnectionPool& operator=(const ConnectionPool&) = delete;
 
+  /// Connections that have one.
+  std::size_t taken() const { return taken_; }
   /// A place for a connection from `address`, if there is one. The pool must outlive it.
   Place take(std::string address);
 

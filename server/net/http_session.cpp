@@ -38,7 +38,9 @@ constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest fil
 constexpr std::chrono::duration<double> kStuckTime{5.0};
 constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
-constexpr std::string_view kHealth = "/healthz", kScenes = "/v1/scenes", kMeshes = "/meshes/";
+constexpr unsigned kFirstError = 400;  // of HTTP's statuses
+constexpr std::string_view kHealth = "/healthz", kReady = "/readyz", kMetrics = "/metrics",
+                           kScenes = "/v1/scenes", kMeshes = "/meshes/";
 
 /// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
 /// parameter).
@@ -142,8 +144,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::method_not_allowed, "only GET and HEAD\n"), last);
     }
     if (path == kHealth) return write(health(), last);
+    if (path == kReady) return write(readiness(), last);
     if (place_.refusal() != NoPlace::none) return write(no_place(), last);
     if (must_be_secure()) return write(secure_address(), last);
+    if (path == kMetrics) return write(metrics(), last);
     if (of_scenes) {
       if (const auto refusal = find_role()) return write(*refusal, last);
     }
@@ -217,6 +221,25 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                         : plain(http::status::service_unavailable, std::move(late));
   }
 
+  /// Whether another viewer should be sent here; if not, why.
+  Answer readiness() const {
+    if (context_.stopping) return plain(http::status::service_unavailable, "the server stops\n");
+    if (context_.connections.taken() >= context_.options.max_connections)
+      return plain(http::status::service_unavailable, "all connections are taken\n");
+    return health();
+  }
+
+  /// For those who run the server.
+  Answer metrics() {
+    if (const auto refusal = find_role()) return *refusal;
+    if (role_ < protocol::Role::admin) return plain(http::status::forbidden, "only for the role admin\n");
+    context_.host.metrics().connections(context_.connections.taken());
+    context_.host.metrics().viewers(context_.viewers.size());
+    Answer answer = plain(http::status::ok, context_.host.metrics().text());
+    answer.media_type = "text/plain; version=0.0.4; charset=utf-8";
+    return answer;
+  }
+
   Answer no_place() const {
     if (place_.refusal() == NoPlace::all_taken)
       return plain(http::status::service_unavailable,
@@ -270,6 +293,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     const bool head = request.method() == http::verb::head;
     content_ = answer.content ? answer.content : std::make_shared<const std::string>();
     response_.emplace(answer.status, 11);
+    if (const unsigned status = response_->result_int(); status >= kFirstError)
+      context_.host.metrics().refused_request(status);
     response_->set(http::field::server, "weft");
     response_->set(http::field::content_type,
                    beast::string_view(answer.media_type.data(), answer.media_type.size()));

@@ -156,6 +156,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   void cut_off(std::uint16_t code, const char* reason) {
     if (const auto more = context_.refusals.admit(std::chrono::steady_clock::now()))
       spdlog::warn("viewer {}: closed, {}: {}{}", peer_, code, reason, *more);
+    context_.host.metrics().closed_viewer(code);
     close(code, reason, false);
   }
 
@@ -169,6 +170,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     if (closing_ && !next) return send_close();
     if (!next) return;
     outgoing_ = std::move(*next);
+    count_outgoing();
     writing_ = true;
     std::vector<asio::const_buffer> buffers;
     ws_.text(outgoing_.text != nullptr);
@@ -179,6 +181,19 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     }
     ws_.async_write(buffers,
                     [self = shared_from_this()](error_code error, std::size_t) { self->on_written(error); });
+  }
+
+  void count_outgoing() {
+    host::Metrics& metrics = context_.host.metrics();
+    if (outgoing_.text) {
+      metrics.sent_text(outgoing_.text->size());
+    } else {
+      std::size_t bytes = 0;
+      for (const host::Record& record : outgoing_.frame->records) bytes += record->size();
+      metrics.sent_frame(bytes);
+    }
+    const std::uint64_t dropped = viewer().dropped();
+    if (dropped > dropped_) metrics.dropped_frames(dropped - std::exchange(dropped_, dropped));
   }
 
   void on_written(error_code error) {
@@ -201,7 +216,8 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   asio::steady_timer close_deadline_;
   std::string peer_;
   beast::flat_buffer incoming_;
-  host::Outgoing outgoing_;  ///< what is being written
+  host::Outgoing outgoing_;    ///< what is being written
+  std::uint64_t dropped_ = 0;  ///< frames, as far as they are counted
   std::optional<websocket::close_reason> closing_;
   bool accepted_ = false, writing_ = false, drain_ = false, close_sent_ = false;
   host::Connection connection_;

@@ -1,0 +1,91 @@
+#pragma once
+/// What the server counts of itself, in Prometheus' terms. Names, units and meanings:
+/// server/docs/operations.md. Every method may be called from any thread, and none waits for another.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cloth/core/grid.h"
+
+namespace prometheus {
+class Counter;
+class Gauge;
+class Histogram;
+class Registry;
+}  // namespace prometheus
+
+namespace weft::host {
+
+/// Of one scene.
+class SceneMetrics {
+ public:
+  /// What a step took and did.
+  struct Step {
+    double seconds = 0;            ///< wall time
+    double allowed = 0;            ///< s; 0: it need not keep to real time
+    double energy_lost = 0;        ///< J, by the numerics (AdvanceReport)
+    double energy_given_back = 0;  ///< J
+  };
+  /// Events of the step guard since the scene was loaded.
+  struct Guard {
+    std::uint64_t redone = 0, frozen = 0, balls_stopped = 0, crowded = 0;
+  };
+
+  SceneMetrics(prometheus::Registry& registry, const std::string& scene);
+
+  void stepped(const Step& step);
+  void guarded(const Guard& guard);
+  void encoded(std::uint64_t records);
+  /// The clock's rate, simulated to real time; 0 while nothing is stepped.
+  void rate(double rate);
+  /// How many viewers see their nearest cloth at each level, from 0.
+  void viewers(const std::vector<int>& by_level);
+
+ private:
+  prometheus::Histogram& seconds_;
+  prometheus::Counter &overruns_, &energy_lost_, &energy_given_back_, &records_;
+  prometheus::Counter &redone_, &frozen_, &balls_stopped_, &crowded_;
+  prometheus::Gauge& rate_;
+  std::array<prometheus::Gauge*, kMaxLevel + 1> viewers_{};
+  Guard guard_;  ///< told so far
+};
+
+/// Of the server.
+class Metrics {
+ public:
+  explicit Metrics(const std::string& version);
+  ~Metrics();
+  Metrics(const Metrics&) = delete;
+  Metrics& operator=(const Metrics&) = delete;
+
+  SceneMetrics of_scene(const std::string& name);
+
+  /// `error` was answered with this code.
+  void refused_command(std::string_view code);
+  /// A request was answered with an HTTP status of 400 or more.
+  void refused_request(unsigned status);
+  /// A viewer was closed for what it did or did not do.
+  void closed_viewer(std::uint16_t code);
+  void sent_frame(std::size_t bytes);
+  void sent_text(std::size_t bytes);
+  /// Replaced by newer ones before they could be sent.
+  void dropped_frames(std::uint64_t count);
+  void connections(std::size_t count);
+  void viewers(std::size_t count);
+
+  /// All of it as Prometheus reads it (text format 0.0.4), with the process' own figures as they are now.
+  std::string text();
+
+ private:
+  void look_at_process();
+
+  std::unique_ptr<prometheus::Registry> registry_;
+  struct Own;
+  std::unique_ptr<Own> own_;
+};
+
+}  // namespace weft::host
