@@ -9,6 +9,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_cost(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_client(CLI::App& app, int& exit_code);
+void add_config(CLI::App& app, int& exit_code);
 void add_version(CLI::App& app, int& exit_code);
 
 }  // namespace weft::cli

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/settings.h"
 
 namespace {
 
@@ -29,12 +30,16 @@ int main(int argc, char** argv) {
   weft::cli::add_cost(app, exit_code);
   weft::cli::add_check(app, exit_code);
   weft::cli::add_client(app, exit_code);
+  weft::cli::add_config(app, exit_code);
   weft::cli::add_version(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // 0: help was asked for
     return with_output_written(app.exit(error) == 0 ? 0 : weft::cli::kBadUsage);
+  } catch (const weft::cli::BadSetting& error) {
+    std::fprintf(stderr, "weft: %s\n", error.what());
+    return weft::cli::kBadUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "weft: %s\n", error.what());
     return weft::cli::kFailed;

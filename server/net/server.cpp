@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "net/http_session.h"
@@ -52,7 +54,17 @@ ServerOptions within_means(ServerOptions options) {
   return options;
 }
 
+/// Both or neither can be used.
+std::pair<Access, TlsContext> secrets(const ServerOptions& options) {
+  if (options.certificate.empty() != options.key.empty())
+    throw std::runtime_error("a certificate and its key belong together: --tls-certificate and --tls-key");
+  return {options.tokens.empty() ? Access() : Access::read(options.tokens),
+          options.certificate.empty() ? nullptr : server_tls(options.certificate, options.key)};
+}
+
 }  // namespace
+
+void check_secrets(const ServerOptions& options) { secrets(options); }
 
 struct Server::Impl {
   Impl(host::Host& host, ServerOptions options) : context(host, within_means(std::move(options))) {}
@@ -129,13 +141,7 @@ void Server::Impl::wait_for_signal() {
   });
 }
 
-/// Both or neither.
-void Server::Impl::read_secrets() {
-  const ServerOptions& options = context.options;
-  Access access = options.tokens.empty() ? Access() : Access::read(options.tokens);
-  if (!options.certificate.empty()) context.tls = server_tls(options.certificate, options.key);
-  context.access = std::move(access);
-}
+void Server::Impl::read_secrets() { std::tie(context.access, context.tls) = secrets(context.options); }
 
 void Server::Impl::stop() {
   if (context.stopping) return;

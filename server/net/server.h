@@ -29,6 +29,9 @@ struct ServerOptions {
   bool insecure = false;
 };
 
+/// Reads tokens, certificate and key. Throws std::runtime_error, naming the file, if they cannot be used.
+void check_secrets(const ServerOptions& options);
+
 /// PROTOCOL.md on one TCP port: the page, the health check, the list of scenes, and the scenes' WebSockets.
 class Server {
  public:

@@ -96,6 +96,19 @@ class Metrics(unittest.IsolatedAsyncioTestCase):
         for name in re.findall(r"^# TYPE (\S+)", server.get("/metrics")[2].decode(), re.MULTILINE):
             self.assertIn(f"`{name}`", documented)
 
+    async def test_the_dashboard_asks_for_nothing_else(self):
+        server = self.start()
+        async with await weft.connect(server.url(), timeout=GENEROUS) as client:
+            with self.assertRaises(weft.WeftError):
+                await client.remove_ball(77)
+        server.get("/none")
+        known = {name for name, _ in samples(server.get("/metrics")[2].decode())} | {"weft_closed_viewers_total"}  # of a flood alone
+        dashboard = json.loads((ROOT / "server" / "deploy" / "grafana.json").read_text())
+        for panel in dashboard["panels"]:
+            for target in panel["targets"]:
+                for name in re.findall(r"(?:weft|process)_[a-z_]+", target["expr"]):
+                    self.assertIn(name, known, panel["title"])
+
     def test_only_for_who_runs_the_server(self):
         tokens = {"view": "a-token-of-a-viewer-1", "control": "a-token-of-a-hand-001", "admin": "a-token-of-an-admin-1"}
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,113 @@
+#include "cli/serve_options.h"
+
+#include <utility>
+#include <variant>
+
+#include "cli/problems.h"
+#include "scene/scene.h"
+
+namespace weft::cli {
+namespace {
+
+/// Those asked for; all presets if none was.
+std::vector<std::string> wanted_scenes(const ServeOptions& options) {
+  if (!options.scenes.empty()) return options.scenes;
+  std::vector<std::string> all;
+  for (const scene::Preset& preset : scene::presets()) all.emplace_back(preset.name);
+  return all;
+}
+
+/// Section 6 of PROTOCOL.md, in the ranges in which the server works as it should.
+void add_limits(CLI::App& command, protocol::Limits& limits) {
+  const auto add = [&](const char* name, auto& limit, double least, double most, const char* what) {
+    command.add_option(name, limit, what)->check(CLI::Range(least, most))->capture_default_str();
+  };
+  add("--message-bytes", limits.message_bytes, 1024, 1 << 20, "Bytes that a client's message may have");
+  add("--json-depth", limits.json_depth, 4, 64, "How deep it may be nested");
+  add("--messages-per-second", limits.messages_per_second, 1, 100'000, "Messages of a client in a second");
+  add("--balls", limits.balls, 0, 1024, "Balls that a scene may have");
+  add("--grabs", limits.grabs, 0, 1024, "Points at which viewers may hold a scene");
+  add("--frame-bytes", limits.frame_bytes, 4096, 1 << 26,
+      "Bytes that a cloth's record may have; the finest levels that have more are not sent");
+}
+
+}  // namespace
+
+bool load_scenes(const ServeOptions& options, host::Host& host) {
+  bool good = true;
+  for (const std::string& name : wanted_scenes(options)) {
+    scene::Result result = scene::load(name, options.overrides);
+    if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
+      print_problems(name, *problems);
+      good = false;
+    } else {
+      host.add(std::move(std::get<scene::Scene>(result)));
+    }
+  }
+  return good;
+}
+
+void ServeOptions::add_to(CLI::App& command) {
+  command.add_option("SCENE,--scene", scenes,
+                     "Presets or scene files; the first is shown first (default: all presets)");
+  command.add_option("--host", server.host, "Address to listen at")->capture_default_str();
+  command.add_option("--port", server.port, "TCP port; 0 takes a free one")->capture_default_str();
+  command.add_option("--web", server.web, "The page's directory (default: found beside the executable)")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--allow-origin", server.allowed_origins,
+                  "Origin of pages that may connect besides this server's own and this machine's, as "
+                  "https://example.org; * allows all; may be given several times")
+      ->allow_extra_args(false);
+  command.add_option("--viewers", limits.viewers, "Viewers that a scene may have at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, static_cast<int>(server.max_connections)));
+  command
+      .add_option(
+          "--host-name", server.names,
+          "Name that requests may call this server by (their Host header) besides localhost, --host and "
+          "addresses, as weft.example; * allows all; may be given several times")
+      ->allow_extra_args(false);
+  command
+      .add_option("--connections", server.max_connections,
+                  "Connections of any kind at a time; more are refused with 503")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--connections-per-address", server.max_connections_per_address,
+          "Those of one IPv4 address, or one IPv6 /64 network; more are refused with 429. 0: no limit, as "
+          "behind a proxy, through which all come from one address")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--set", overrides, "POINTER=VALUE changes a value of every scene, as /wind/speed=8")
+      ->allow_extra_args(false);
+  command
+      .add_option("--tokens", server.tokens,
+                  "File of bearer tokens and what each may do: view, control or admin (JSON)")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option(
+          "--tls-certificate", server.certificate,
+          "Certificate chain (PEM): https and wss at the same port; without TLS this machine alone is "
+          "served")
+      ->check(CLI::ExistingFile);
+  command.add_option("--tls-key", server.key, "Its private key (PEM)")->check(CLI::ExistingFile);
+  command.add_flag(
+      "--insecure", server.insecure,
+      "Listens at an address that others reach although there are no --tokens; with a certificate, "
+      "serves others without TLS, too");
+  add_limits(command, limits);
+  threads.add_to(command);
+  command.add_option("--log", log, "Form of the log: text or json, an object a line")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  command.add_flag("--quiet", quiet, "Logs warnings and errors only");
+  command
+      .add_option("--config", config,
+                  "File with these options (TOML: port = 8080); the command line and the environment "
+                  "(WEFT_PORT) go before it")
+      ->check(CLI::ExistingFile);
+}
+
+}  // namespace weft::cli

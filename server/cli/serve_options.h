@@ -1,0 +1,32 @@
+#pragma once
+/// The options of `weft serve`, which `weft config` reads, too.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/threads.h"
+#include "host/host.h"
+#include "net/server.h"
+
+namespace weft::cli {
+
+struct ServeOptions {
+  std::vector<std::string> scenes;
+  std::vector<std::string> overrides;
+  protocol::Limits limits;
+  net::ServerOptions server;
+  Threads threads;
+  std::string log = "text";
+  bool quiet = false;
+  std::filesystem::path config;
+
+  /// `this` must outlive the command.
+  void add_to(CLI::App& command);
+};
+
+/// Loads the scenes asked for, or all presets, into `host`. False, with the problems printed, if any has
+/// some.
+bool load_scenes(const ServeOptions& options, host::Host& host);
+
+}  // namespace weft::cli

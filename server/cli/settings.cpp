@@ -1,0 +1,139 @@
+#include "cli/settings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace weft::cli {
+namespace {
+
+using Values = std::vector<std::string>;
+
+/// Those that say how the command is run, and not what it does.
+bool is_setting(const CLI::Option& option) {
+  const Values& names = option.get_lnames();
+  return !names.empty() && names.front() != "help" && names.front() != "config";
+}
+
+bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
+
+std::string variable_of(std::string name) {
+  for (char& letter : name)
+    letter = letter == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  return "WEFT_" + name;
+}
+
+Values separated(const std::string& text) {
+  Values values;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    values.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return values;
+}
+
+/// By option.
+std::map<std::string, Values> read_file(const std::filesystem::path& file, const Values& known) {
+  std::map<std::string, Values> found;
+  std::vector<CLI::ConfigItem> items;
+  try {
+    items = CLI::ConfigTOML().from_file(file.string());
+  } catch (const CLI::Error& error) {
+    throw BadSetting(file.string() + ": " + error.what());
+  }
+  for (CLI::ConfigItem& item : items) {
+    if (!item.parents.empty())
+      throw BadSetting(file.string() + ": [" + item.parents.front() +
+                       "] is unknown; allowed: options, without tables");
+    const std::string name = item.name;
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      std::string all;
+      for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+      throw BadSetting(file.string() + ": " + name + " is unknown; allowed: " + all);
+    }
+    if (!found.emplace(name, std::move(item.inputs)).second)
+      throw BadSetting(file.string() + ": " + name + " is given twice");
+  }
+  return found;
+}
+
+void take(CLI::Option& option, const Values& values, const std::string& source) {
+  const std::string name = option.get_lnames().front();
+  std::string shown;
+  for (const std::string& value : values) shown += (shown.empty() ? "" : ", ") + value;
+  try {
+    if (values.size() > 1 && option.get_items_expected_max() == 1)
+      throw CLI::ValidationError("one value is allowed");
+    if (is_flag(option)) {
+      if (shown != "true" && shown != "false") throw CLI::ValidationError("allowed: true or false");
+      if (shown == "true") option.add_result("true");
+    } else {
+      option.add_result(values);
+    }
+    if (!option.empty()) option.run_callback();
+  } catch (const CLI::Error& error) {
+    throw BadSetting(source + ": " + name + " is " + shown + "; " + error.what());
+  }
+}
+
+std::string quoted(const std::string& value) {
+  const bool number =
+      !value.empty() && value.find_first_not_of("0123456789") == std::string::npos && value.size() < 16;
+  return number ? value : nlohmann::json(value).dump();
+}
+
+}  // namespace
+
+std::vector<Setting> complete_settings(CLI::App& command, const std::filesystem::path& file) {
+  const auto options = command.get_options([](const CLI::Option* option) { return is_setting(*option); });
+  Values known;
+  for (const CLI::Option* option : options) known.push_back(option->get_lnames().front());
+  const auto in_file = file.empty() ? std::map<std::string, Values>() : read_file(file, known);
+  std::vector<Setting> settings;
+  for (CLI::Option* option : options) {
+    Setting setting{option->get_lnames().front(), is_flag(*option), {}, "default"};
+    const std::string variable = variable_of(setting.name);
+    const char* text = std::getenv(variable.c_str());
+    if (option->count() > 0) {
+      setting.source = "--" + setting.name;
+    } else if (text != nullptr) {
+      take(*option, separated(text), variable);
+      setting.source = variable;
+    } else if (const auto found = in_file.find(setting.name); found != in_file.end()) {
+      take(*option, found->second, file.string());
+      setting.source = file.string();
+    }
+    if (setting.flag) {
+      setting.values = {option->count() > 0 ? "true" : "false"};
+    } else if (option->count() > 0) {
+      setting.values = option->results();
+    } else if (!option->get_default_str().empty()) {
+      setting.values = {option->get_default_str()};
+    }
+    settings.push_back(std::move(setting));
+  }
+  return settings;
+}
+
+std::string to_text(const std::vector<Setting>& settings) {
+  std::string text;
+  for (const Setting& setting : settings) {
+    if (setting.values.empty()) {
+      text += "# " + setting.name + " =\n";
+      continue;
+    }
+    std::string value;
+    for (const std::string& each : setting.values)
+      value += (value.empty() ? "" : ", ") + (setting.flag ? each : quoted(each));
+    if (setting.values.size() > 1) value = "[" + value + "]";
+    text += setting.name + " = " + value + "  # " + setting.source + "\n";
+  }
+  return text;
+}
+
+}  // namespace weft::cli
