@@ -47,7 +47,7 @@ int serve(ServeOptions options) {
   begin_log(options.log, options.quiet);
 
   const ThreadLimit limit = options.threads.limit();
-  host::Host host(options.limits, WEFT_VERSION);
+  host::Host host(options.limits, WEFT_VERSION, options.making);
   if (!load_scenes(options, host)) return kFailed;
   if (options.server.web.empty()) options.server.web = find_page();
   options.server.version = WEFT_VERSION;

@@ -17,11 +17,17 @@ std::vector<std::string> wanted_scenes(const ServeOptions& options) {
   return all;
 }
 
-/// Section 6 of PROTOCOL.md, in the ranges in which the server works as it should.
-void add_limits(CLI::App& command, protocol::Limits& limits) {
+/// Sections 6 and 8 of PROTOCOL.md, in the ranges in which the server works as it should.
+void add_limits(CLI::App& command, protocol::Limits& limits, host::MakingLimits& making) {
   const auto add = [&](const char* name, auto& limit, double least, double most, const char* what) {
     command.add_option(name, limit, what)->check(CLI::Range(least, most))->capture_default_str();
   };
+  add("--made-scenes", making.scenes, 0, 1000, "Scenes that clients with the role admin may make, at a time");
+  add("--scene-bytes", making.document_bytes, 1024, 1 << 28, "Bytes of the document of one");
+  add("--made-nodes", making.nodes, 0, 1e8, "Nodes of all of them at their finest levels");
+  add("--made-colliders", making.colliders, 0, 10'000, "Balls and obstacles of one");
+  add("--made-work", making.work, 0, 1e12,
+      "Work of the first step of one, in node-substeps (some 20 ns each)");
   add("--message-bytes", limits.message_bytes, 1024, 1 << 20, "Bytes that a client's message may have");
   add("--json-depth", limits.json_depth, 4, 64, "How deep it may be nested");
   add("--messages-per-second", limits.messages_per_second, 1, 100'000, "Messages of a client in a second");
@@ -97,7 +103,7 @@ void ServeOptions::add_to(CLI::App& command) {
       "--insecure", server.insecure,
       "Listens at an address that others reach although there are no --tokens; with a certificate, "
       "serves others without TLS, too");
-  add_limits(command, limits);
+  add_limits(command, limits, making);
   threads.add_to(command);
   command.add_option("--log", log, "Form of the log: text or json, an object a line")
       ->check(CLI::IsMember({"text", "json"}))

@@ -15,6 +15,7 @@ struct ServeOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   protocol::Limits limits;
+  host::MakingLimits making;
   net::ServerOptions server;
   Threads threads;
   std::string log = "text";

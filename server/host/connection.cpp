@@ -10,9 +10,10 @@ namespace weft::host {
 using nlohmann::json;
 using protocol::Request;
 
-Connection::Connection(Host& host, SceneRunner& scene, protocol::Role role, std::string_view server_version)
+Connection::Connection(Host& host, std::shared_ptr<SceneRunner> scene, protocol::Role role,
+                       std::string_view server_version)
     : host_(host),
-      scene_(&scene),
+      scene_(std::move(scene)),
       role_(role),
       rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()),
       excess_(host.limits().messages_per_second / 2, std::chrono::steady_clock::now()) {
@@ -77,7 +78,7 @@ void Connection::answer(const Request& request, const protocol::SceneList&) {
 }
 
 void Connection::answer(const Request& request, const protocol::SceneJoin& join) {
-  SceneRunner* next = host_.find(join.scene);
+  std::shared_ptr<SceneRunner> next = host_.find(join.scene);
   if (!next) {
     return refuse(request, "not_found", "/scene", "there is no scene named \"" + join.scene + "\"");
   }
@@ -89,7 +90,7 @@ void Connection::answer(const Request& request, const protocol::SceneJoin& join)
   }
   scene_->leave(viewer_, visit_);
   if (next != scene_) scene_->give_back();
-  scene_ = next;
+  scene_ = std::move(next);
   visit_ = viewer_->enter();
   ok(request, json::object());
   scene_->join(viewer_, visit_);
@@ -105,7 +106,7 @@ void Connection::answer(const Request& request, const protocol::Ping& ping) {
     return make_text(protocol::pong_text(id, t, scene.frame(), scene.time(), server_ms()));
   };
   if (viewer_->all_answered()) return viewer_->send(pong(*scene_));
-  const auto later = [pong, scene = scene_, viewer = viewer_] { viewer->send(pong(*scene)); };
+  const auto later = [pong, scene = scene_.get(), viewer = viewer_] { viewer->send(pong(*scene)); };
   if (!scene_->submit(viewer_, visit_, later)) too_many_wait(request);
 }
 

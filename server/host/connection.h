@@ -16,7 +16,8 @@ class Connection {
 
   /// Enters `scene`, in which a place is reserved for it (SceneRunner::reserve): `welcome` is the first thing
   /// it sends. Commands that need more than `role` are refused.
-  Connection(Host& host, SceneRunner& scene, protocol::Role role, std::string_view server_version);
+  Connection(Host& host, std::shared_ptr<SceneRunner> scene, protocol::Role role,
+             std::string_view server_version);
   /// Leaves the scene.
   ~Connection();
   Connection(const Connection&) = delete;
@@ -52,7 +53,7 @@ class Connection {
   void refuse(const protocol::Error& error);
 
   Host& host_;
-  SceneRunner* scene_;
+  std::shared_ptr<SceneRunner> scene_;
   const protocol::Role role_;
   std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
   std::uint64_t visit_ = 0;

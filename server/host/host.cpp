@@ -4,29 +4,145 @@
 #include <stdexcept>
 #include <utility>
 
-namespace weft::host {
+#include "cloth/world/simulation.h"
 
-Host::Host(const protocol::Limits& limits, const std::string& version) : limits_(limits), metrics_(version) {}
+namespace weft::host {
+namespace {
+
+using Why = NotMade::Why;
+
+/// As a file's name without its extension, and a part of an URL.
+bool is_scene_name(std::string_view name) {
+  constexpr std::size_t kLongest = 64;
+  return !name.empty() && name.size() <= kLongest &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string_view::npos;
+}
+
+/// At the finest levels.
+long count_nodes(const SimulationDescription& simulation) {
+  long nodes = 0;
+  for (const ClothDescription& cloth : simulation.cloths) {
+    const Grid grid = cloth.base_cells.at(cloth.max_level);
+    nodes += long{grid.rows} * grid.cols;
+  }
+  return nodes;
+}
+
+/// Whether its first step at the finest levels does no more work than that.
+bool first_step_within(const SimulationDescription& description, double most) {
+  Simulation<float> simulation(description);
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
+    simulation.request_level(i, description.cloths[i].max_level);
+    simulation.cloths()[i].set_most_work(most);
+  }
+  simulation.step();
+  double work = 0;
+  for (const Cloth<float>& cloth : simulation.cloths()) work += cloth.work();
+  return work <= most;
+}
+
+}  // namespace
+
+Host::Host(const protocol::Limits& limits, const std::string& version, const MakingLimits& making)
+    : limits_(limits), making_(making), metrics_(version) {}
 
 Host::~Host() {
   // All of them first: each then ends while others are waited for.
-  for (const auto& scene : scenes_) scene->request_stop();
+  for (const Served& scene : scenes_) scene.runner->request_stop();
+}
+
+bool Host::taken(std::string_view name) const {
+  const auto ending = ending_.find(name);
+  return std::any_of(scenes_.begin(), scenes_.end(),
+                     [&](const Served& scene) { return scene.runner->name() == name; }) ||
+         (ending != ending_.end() && !ending->second.expired());
 }
 
 void Host::add(scene::Scene scene) {
-  if (find(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
-  scenes_.push_back(std::make_unique<SceneRunner>(std::move(scene), limits_, metrics_));
+  const std::lock_guard lock(mutex_);
+  if (taken(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
+  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_), std::nullopt});
 }
 
-SceneRunner* Host::find(std::string_view name) const {
-  const auto found =
-      std::find_if(scenes_.begin(), scenes_.end(), [&](const auto& s) { return s->name() == name; });
-  return found == scenes_.end() ? nullptr : found->get();
+std::optional<NotMade> Host::refusal(const std::string& name, long nodes) const {
+  if (taken(name)) return NotMade{Why::exists, "there is a scene named " + name + " already", {}};
+  std::size_t made = 0;
+  long used = 0;
+  for (const Served& scene : scenes_) {
+    made += scene.nodes.has_value();
+    used += scene.nodes.value_or(0);
+  }
+  if (made >= making_.scenes)
+    return NotMade{Why::full,
+                   "clients have made " + std::to_string(made) + " scenes, the most allowed: end one first",
+                   {}};
+  if (used + nodes > making_.nodes)
+    return NotMade{Why::too_large,
+                   "the scene has " + std::to_string(nodes) + " nodes at its finest levels, beside " +
+                       std::to_string(used) +
+                       " of others made by clients; allowed: " + std::to_string(making_.nodes) + " in all",
+                   {}};
+  return std::nullopt;
+}
+
+std::optional<NotMade> Host::make(const std::string& name, std::string_view document) {
+  if (!is_scene_name(name))
+    return NotMade{Why::bad_name, "a scene's name must be 1..64 of a-z, 0-9 and -", {}};
+  scene::Result read = scene::parse(document, name);
+  if (auto* problems = std::get_if<std::vector<scene::Problem>>(&read))
+    return NotMade{Why::problems, "the document has problems", std::move(*problems)};
+  scene::Scene scene = std::get<scene::Scene>(std::move(read));
+  const SimulationDescription& simulation = scene.simulation;
+  const std::size_t colliders = simulation.balls.size() + simulation.obstacles.size();
+  if (colliders > making_.colliders)
+    return NotMade{Why::too_large,
+                   "the scene has " + std::to_string(colliders) +
+                       " balls and obstacles; allowed: " + std::to_string(making_.colliders),
+                   {}};
+  const long nodes = count_nodes(simulation);
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto no = refusal(name, nodes)) return no;
+  }
+  if (!first_step_within(simulation, making_.work))
+    return NotMade{Why::too_costly, "a step of the scene takes more work than a client's may", {}};
+  const std::lock_guard lock(mutex_);
+  if (auto no = refusal(name, nodes)) return no;  // another client was faster
+  ending_.erase(name);
+  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_), nodes});
+  return std::nullopt;
+}
+
+Host::Ending Host::end(std::string_view name) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(scenes_.begin(), scenes_.end(),
+                                  [&](const Served& scene) { return scene.runner->name() == name; });
+  if (found == scenes_.end()) return Ending::unknown;
+  if (!found->nodes) return Ending::own;
+  found->runner->request_stop();
+  std::erase_if(ending_, [](const auto& each) { return each.second.expired(); });
+  ending_[found->runner->name()] = found->runner;
+  scenes_.erase(found);
+  return Ending::ended;
+}
+
+std::shared_ptr<SceneRunner> Host::find(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(scenes_.begin(), scenes_.end(),
+                                  [&](const Served& scene) { return scene.runner->name() == name; });
+  return found == scenes_.end() ? nullptr : found->runner;
+}
+
+std::vector<std::shared_ptr<SceneRunner>> Host::scenes() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<SceneRunner>> all;
+  for (const Served& scene : scenes_) all.push_back(scene.runner);
+  return all;
 }
 
 nlohmann::json Host::list() const {
   nlohmann::json list = nlohmann::json::array();
-  for (const auto& scene : scenes_) {
+  for (const auto& scene : scenes()) {
     list.push_back({{"name", scene->name()},
                     {"title", scene->title()},
                     {"viewers", scene->viewers()},

@@ -35,9 +35,12 @@ prometheus::Gauge& gauge(Registry& registry, const char* name, const char* help,
 const prometheus::Histogram::BucketBoundaries kStepSeconds{1e-4,  2e-4,  5e-4,  1e-3,  2e-3,  4e-3, 8e-3,
                                                            12e-3, 16e-3, 24e-3, 32e-3, 64e-3, 0.25, 1};
 
-prometheus::Counter& guard_counter(Registry& registry, const std::string& scene, const char* event) {
-  return counter(registry, "weft_guard_events_total", "What the step guard did",
-                 {{"scene", scene}, {"event", event}});
+auto& counters(Registry& registry, const char* name, const char* help) {
+  return BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+auto& guard_events(Registry& registry) {
+  return counters(registry, "weft_guard_events_total", "What the step guard did");
 }
 
 /// What has been added to a count that may have begun anew.
@@ -47,31 +50,48 @@ double growth(std::uint64_t now, std::uint64_t before) {
 
 }  // namespace
 
+template <class Metric, class... Arguments>
+Metric& SceneMetrics::add(prometheus::Family<Metric>& family, const Labels& labels,
+                          const Arguments&... arguments) {
+  Metric& metric = family.Add(labels, arguments...);
+  removals_.emplace_back([&family, &metric] { family.Remove(&metric); });
+  return metric;
+}
+
 SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene)
-    : seconds_(BuildHistogram()
-                   .Name("weft_step_seconds")
-                   .Help("Wall time of a step")
-                   .Register(registry)
-                   .Add({{"scene", scene}}, kStepSeconds)),
-      overruns_(counter(registry, "weft_step_overruns_total",
-                        "Steps in real time that took longer than the time they stand for",
-                        {{"scene", scene}})),
-      energy_lost_(counter(registry, "weft_energy_lost_joules_total",
-                           "Energy that the numerics took from the cloths' motion", {{"scene", scene}})),
-      energy_given_back_(counter(registry, "weft_energy_given_back_joules_total",
-                                 "Energy of that which the ledger gave back", {{"scene", scene}})),
-      records_(counter(registry, "weft_encoded_records_total",
-                       "Records encoded: one a cloth, level and frame, however many viewers there are",
+    : seconds_(add(BuildHistogram().Name("weft_step_seconds").Help("Wall time of a step").Register(registry),
+                   {{"scene", scene}}, kStepSeconds)),
+      overruns_(add(counters(registry, "weft_step_overruns_total",
+                             "Steps in real time that took longer than the time they stand for"),
+                    {{"scene", scene}})),
+      energy_lost_(add(counters(registry, "weft_energy_lost_joules_total",
+                                "Energy that the numerics took from the cloths' motion"),
                        {{"scene", scene}})),
-      redone_(guard_counter(registry, scene, "redone")),
-      frozen_(guard_counter(registry, scene, "frozen")),
-      balls_stopped_(guard_counter(registry, scene, "ball_stopped")),
-      crowded_(guard_counter(registry, scene, "crowded")),
-      rate_(gauge(registry, "weft_clock_ratio", "Simulated to real time; 0 while nothing is stepped",
-                  {{"scene", scene}})) {
+      energy_given_back_(add(counters(registry, "weft_energy_given_back_joules_total",
+                                      "Energy of that which the ledger gave back"),
+                             {{"scene", scene}})),
+      records_(add(counters(registry, "weft_encoded_records_total",
+                            "Records encoded: one a cloth, level and frame, however many viewers there are"),
+                   {{"scene", scene}})),
+      redone_(add(guard_events(registry), {{"scene", scene}, {"event", "redone"}})),
+      frozen_(add(guard_events(registry), {{"scene", scene}, {"event", "frozen"}})),
+      balls_stopped_(add(guard_events(registry), {{"scene", scene}, {"event", "ball_stopped"}})),
+      crowded_(add(guard_events(registry), {{"scene", scene}, {"event", "crowded"}})),
+      rate_(add(BuildGauge()
+                    .Name("weft_clock_ratio")
+                    .Help("Simulated to real time; 0 while nothing is stepped")
+                    .Register(registry),
+                {{"scene", scene}})) {
+  auto& viewers = BuildGauge()
+                      .Name("weft_scene_viewers")
+                      .Help("Viewers by the level of their finest cloth")
+                      .Register(registry);
   for (std::size_t level = 0; level < viewers_.size(); ++level)
-    viewers_[level] = &gauge(registry, "weft_scene_viewers", "Viewers by the level of their finest cloth",
-                             {{"scene", scene}, {"level", std::to_string(level)}});
+    viewers_[level] = &add(viewers, {{"scene", scene}, {"level", std::to_string(level)}});
+}
+
+SceneMetrics::~SceneMetrics() {
+  for (const auto& remove : removals_) remove();
 }
 
 void SceneMetrics::stepped(const Step& step) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,6 +15,8 @@
 
 namespace prometheus {
 class Counter;
+template <class>
+class Family;
 class Gauge;
 class Histogram;
 class Registry;
@@ -36,6 +40,10 @@ class SceneMetrics {
   };
 
   SceneMetrics(prometheus::Registry& registry, const std::string& scene);
+  /// Takes the scene's metrics away.
+  ~SceneMetrics();
+  SceneMetrics(const SceneMetrics&) = delete;
+  SceneMetrics& operator=(const SceneMetrics&) = delete;
 
   void stepped(const Step& step);
   void guarded(const Guard& guard);
@@ -46,6 +54,11 @@ class SceneMetrics {
   void viewers(const std::vector<int>& by_level);
 
  private:
+  template <class Metric, class... Arguments>
+  Metric& add(prometheus::Family<Metric>& family, const std::map<std::string, std::string>& labels,
+              const Arguments&... arguments);
+
+  std::vector<std::function<void()>> removals_;
   prometheus::Histogram& seconds_;
   prometheus::Counter &overruns_, &energy_lost_, &energy_given_back_, &records_;
   prometheus::Counter &redone_, &frozen_, &balls_stopped_, &crowded_;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <unordered_set>
 #include <utility>
+// Boost 1.74 needs <utility> before it.
+#include <boost/asio/thread_pool.hpp>
 
 #include "net/access.h"
 #include "net/connection_pool.h"
@@ -39,6 +41,7 @@ struct Context {
   std::array<std::weak_ptr<HttpSession>, kExtraConnections> extra;
   std::size_t next_extra = 0;
   std::unordered_set<WebsocketSession*> viewers;
+  boost::asio::thread_pool makers{1};  ///< where scenes are made for clients, one at a time
   LogLimiter arrivals, refusals;  ///< of lines on viewers that come and go, and on those that are not let
   bool stopping = false;
   std::function<void()> on_viewers_gone;  ///< called when the last viewer has gone while stopping

@@ -40,7 +40,7 @@ constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
 constexpr unsigned kFirstError = 400;  // of HTTP's statuses
 constexpr std::string_view kHealth = "/healthz", kReady = "/readyz", kMetrics = "/metrics",
-                           kScenes = "/v1/scenes", kMeshes = "/meshes/";
+                           kScenes = "/v1/scenes", kScene = "/v1/scenes/", kMeshes = "/meshes/";
 
 /// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
 /// parameter).
@@ -101,6 +101,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     // A parser reads one message.
     parser_.emplace();
     parser_->header_limit(kHeaderBytes);
+    parser_->body_limit(context_.host.making().document_bytes);
     tcp().expires_after(kRequestTime);
     http::async_read_header(
         stream_, buffer_, *parser_,
@@ -113,6 +114,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
           plain(http::status::request_header_fields_too_large, "the header has more than 8192 bytes\n"),
           true);
     }
+    if (error == http::error::body_limit)
+      return write(plain(http::status::payload_too_large,
+                         "the body has more than " + std::to_string(context_.host.making().document_bytes) +
+                             " bytes (--scene-bytes)\n"),
+                   true);
     if (error && error.category() == http::make_error_code(http::error::bad_target).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
       return write(plain(http::status::bad_request, "not a valid HTTP request\n"), true);
@@ -124,7 +130,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void respond() {
     join_lists(parser_->get());
     const HttpRequest& request = parser_->get();
-    // A body is of no use to any request here; it is not read, so the connection ends with the answer.
+    // A body is of use to PUT alone; where it is not read the connection ends with the answer.
     const bool last = !request.keep_alive() || !parser_->is_done() || place_.refusal() != NoPlace::none;
     if (const std::string fault = header_fault(request); !fault.empty())
       return write(plain(http::status::bad_request, fault + "\n"), true);
@@ -136,12 +142,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     }
     const std::string_view target = view(request.target());
     const std::string_view path = target.substr(0, target.find('?'));
-    const bool of_scenes = path == kScenes || path.starts_with("/v1/scenes/");
+    const bool of_scenes = path == kScenes || path.starts_with(kScene);
     // A browser asks so whether a page from elsewhere may show a token.
     if (of_scenes && request.method() == http::verb::options)
       return write(plain(http::status::no_content, ""), last);
+    const bool changes = request.method() == http::verb::put || request.method() == http::verb::delete_;
+    if (changes && path.starts_with(kScene))
+      return change_scenes(std::string(path.substr(kScene.size())), last);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
-      return write(plain(http::status::method_not_allowed, "only GET and HEAD\n"), last);
+      return write(
+          plain(http::status::method_not_allowed, "only GET and HEAD, and PUT and DELETE of scenes\n"), last);
     }
     if (path == kHealth) return write(health(), last);
     if (path == kReady) return write(readiness(), last);
@@ -151,20 +161,20 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (of_scenes) {
       if (const auto refusal = find_role()) return write(*refusal, last);
     }
-    if (path == kScenes || path == "/v1/scenes/") {
+    if (path == kScenes || path == kScene) {
       const nlohmann::json list = {{"scenes", context_.host.list()}};
       Answer answer = plain(http::status::ok, list.dump());
       answer.media_type = "application/json";
       return write(answer, last);
     }
     const std::size_t meshes = path.find(kMeshes);
-    if (path.starts_with("/v1/scenes/") && meshes != path.npos) {
+    if (path.starts_with(kScene) && meshes != path.npos) {
       const auto text = find_mesh(path.substr(kScenes.size() + 1, meshes - kScenes.size() - 1),
                                   path.substr(meshes + kMeshes.size()));
       if (!text) return write(plain(http::status::not_found, "there is no such mesh\n"), last);
       return write({http::status::ok, text, "application/json", ""}, last);
     }
-    if (path.starts_with("/v1/scenes/")) return open_scene(path.substr(kScenes.size() + 1), last);
+    if (path.starts_with(kScene)) return open_scene(path.substr(kScenes.size() + 1), last);
     if (const auto file = context_.files.find(target)) {
       if (view(request[http::field::if_none_match]) == file->etag) {
         return write({http::status::not_modified, nullptr, file->media_type, file->etag}, last);
@@ -253,11 +263,74 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   /// The mesh that GET /v1/scenes/NAME/meshes/OBSTACLE asks for; nullptr if there is none.
   std::shared_ptr<const std::string> find_mesh(std::string_view name, std::string_view number) const {
-    const host::SceneRunner* scene = context_.host.find(name);
+    const auto scene = context_.host.find(name);
     std::size_t obstacle = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), obstacle);
     if (!scene || error != std::errc() || end != number.data() + number.size()) return nullptr;
     return scene->mesh(obstacle);
+  }
+
+  /// PUT and DELETE of /v1/scenes/NAME.
+  void change_scenes(std::string name, bool last) {
+    const HttpRequest& request = parser_->get();
+    if (place_.refusal() != NoPlace::none) return write(no_place(), last);
+    if (must_be_secure()) return write(secure_address(), last);
+    if (const auto refusal = find_role()) return write(*refusal, last);
+    if (!origin_allowed(view(request[http::field::origin]), view(request[http::field::host]),
+                        context_.options.allowed_origins))
+      return write(plain(http::status::forbidden, "this page's origin is not allowed (--allow-origin)\n"),
+                   last);
+    if (role_ < protocol::Role::admin)
+      return write(plain(http::status::forbidden, "scenes are made and ended by the role admin alone\n"),
+                   last);
+    if (request.method() == http::verb::delete_) return end_scene(name, last);
+    tcp().expires_after(kResponseTime);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this(), name = std::move(name)](error_code error, std::size_t) {
+                       if (error) return self->on_read(error);
+                       self->make_scene(name);
+                     });
+  }
+
+  void make_scene(const std::string& name) {
+    boost::asio::post(context_.makers, [self = shared_from_this(), name] {
+      auto no = self->context_.host.make(name, self->parser_->get().body());
+      boost::asio::post(self->stream_.get_executor(), [self, name, no = std::move(no)] {
+        if (!no) spdlog::info("scene {}: made by a client", name);
+        self->write(no ? not_made(*no) : plain(http::status::created, "made\n"),
+                    !self->parser_->get().keep_alive());
+      });
+    });
+  }
+
+  static Answer not_made(const host::NotMade& no) {
+    using Why = host::NotMade::Why;
+    nlohmann::json problems = nlohmann::json::array();
+    for (const scene::Problem& problem : no.problems)
+      problems.push_back({{"path", problem.path}, {"message", problem.message}});
+    const auto status = no.why == Why::exists      ? http::status::conflict
+                        : no.why == Why::full      ? http::status::service_unavailable
+                        : no.why == Why::too_large ? http::status::payload_too_large
+                                                   : http::status::unprocessable_entity;
+    const nlohmann::json body{{"message", no.text}, {"problems", problems}};
+    Answer answer = plain(status, body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    answer.media_type = "application/json";
+    return answer;
+  }
+
+  void end_scene(const std::string& name, bool last) {
+    const auto scene = context_.host.find(name);
+    switch (context_.host.end(name)) {
+      case host::Host::Ending::unknown:
+        return write(plain(http::status::not_found, "there is no such scene\n"), last);
+      case host::Host::Ending::own:
+        return write(plain(http::status::conflict, "this scene is the server's own\n"), last);
+      case host::Host::Ending::ended:
+        break;
+    }
+    end_websocket_sessions_in(context_, *scene);
+    spdlog::info("scene {}: ended by a client", name);
+    write(plain(http::status::no_content, ""), last);
   }
 
   /// The upgrade of GET /v1/scenes/NAME, or why not.
@@ -268,7 +341,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::forbidden, "this page's origin is not allowed (--allow-origin)\n"),
                    last);
     }
-    host::SceneRunner* scene = context_.host.find(name);
+    auto scene = context_.host.find(name);
     if (!scene) return write(plain(http::status::not_found, "there is no such scene\n"), last);
     if (!beast::websocket::is_upgrade(request)) {
       return write(plain(http::status::upgrade_required, "a scene is a WebSocket\n"), last);
@@ -285,7 +358,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
                    last);
     }
-    start_websocket_session(context_, std::move(place_), std::move(stream_), request, *scene, role_);
+    start_websocket_session(context_, std::move(place_), std::move(stream_), request, std::move(scene),
+                            role_);
   }
 
   void write(const Answer& answer, bool last) {
@@ -331,8 +405,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set(http::field::access_control_allow_origin,
                    beast::string_view(origin.data(), origin.size()));
     response_->set(http::field::vary, "Origin");
-    if (parser_->get().method() == http::verb::options)
-      response_->set(http::field::access_control_allow_headers, "Authorization");
+    if (parser_->get().method() != http::verb::options) return;
+    response_->set(http::field::access_control_allow_headers, "Authorization, Content-Type");
+    response_->set(http::field::access_control_allow_methods, "GET, PUT, DELETE");
   }
 
   void end() {
@@ -344,7 +419,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Transport stream_;
   protocol::Role role_ = protocol::Role::view;
   beast::flat_buffer buffer_;
-  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::optional<http::request_parser<http::string_body>> parser_;
   std::shared_ptr<const std::string> content_;  ///< what the response's body points into
   std::optional<http::response<http::span_body<const char>>> response_;
 };

@@ -1,14 +1,14 @@
 #pragma once
 #include <utility>
 // Boost 1.74 needs <utility> before it.
-#include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
 #include <string>
 #include <string_view>
 
 namespace weft::net {
 
-using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
 /// Beast has a type of its own for what the standard has since C++17.
 inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }

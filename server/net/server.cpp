@@ -168,6 +168,7 @@ Server::Server(host::Host& host, ServerOptions options)
 }
 
 Server::~Server() {
+  impl_->context.makers.join();  // it posts to the io_context
   // Scenes still run: they must not post to an io_context that is being destroyed.
   for (WebsocketSession* viewer : impl_->context.viewers) silence_websocket_session(*viewer);
   // The sessions that are destroyed with it must not stop it.

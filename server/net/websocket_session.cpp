@@ -29,7 +29,7 @@ constexpr auto kHandshakeTime = std::chrono::seconds(10);
 constexpr auto kIdleTime = std::chrono::seconds(60);
 /// For a viewer to take what it is sent last, and to answer the close.
 constexpr auto kCloseTime = std::chrono::seconds(2);
-constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004;
+constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004, kSceneEnded = 4005;
 
 /// Frames wait here, where newer ones replace them, and not in the kernel, where they grow old: 4 MB
 /// otherwise.
@@ -47,14 +47,14 @@ void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
 /// has for it, one message at a time.
 class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
  public:
-  WebsocketSession(Context& context, ConnectionPool::Place place, Transport stream, host::SceneRunner& scene,
-                   protocol::Role role)
+  WebsocketSession(Context& context, ConnectionPool::Place place, Transport stream,
+                   std::shared_ptr<host::SceneRunner> scene, protocol::Role role)
       : context_(context),
         place_(std::move(place)),
         ws_(std::move(stream), context.host.limits().messages_per_second),
         read_pause_(ws_.get_executor()),
         close_deadline_(ws_.get_executor()),
-        connection_(context.host, scene, role, context.options.version) {
+        connection_(context.host, std::move(scene), role, context.options.version) {
     context_.viewers.insert(this);
   }
 
@@ -104,6 +104,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   }
 
   host::Viewer& viewer() { return connection_.viewer(); }
+  const host::SceneRunner& scene() const { return connection_.scene(); }
 
  private:
   void on_accept(error_code error) {
@@ -224,14 +225,22 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 };
 
 void start_websocket_session(Context& context, ConnectionPool::Place place, Transport stream,
-                             const HttpRequest& request, host::SceneRunner& scene, protocol::Role role) {
-  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), scene, role)
+                             const HttpRequest& request, std::shared_ptr<host::SceneRunner> scene,
+                             protocol::Role role) {
+  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), std::move(scene), role)
       ->start(request);
 }
 
 void end_websocket_session(WebsocketSession& session) {
   session.viewer().send(host::make_text(protocol::notice_text("shutdown", "the server stops")));
   session.close(websocket::close_code::going_away, "the server stops", true);
+}
+
+void end_websocket_sessions_in(Context& context, const host::SceneRunner& scene) {
+  const std::vector<WebsocketSession*> viewers(context.viewers.begin(), context.viewers.end());
+  for (WebsocketSession* viewer : viewers) {
+    if (&viewer->scene() == &scene) viewer->close(kSceneEnded, "the scene was ended", true);
+  }
 }
 
 void silence_websocket_session(WebsocketSession& session) { session.viewer().on_wake(nullptr); }

@@ -122,7 +122,8 @@ class Access(unittest.IsolatedAsyncioTestCase):
                 status, headers, _ = server.get("/v1/scenes", method="OPTIONS", Origin=origin)
                 self.assertEqual(status, 204)
                 self.assertEqual(headers.get("access-control-allow-origin"), origin if allowed else None)
-                self.assertEqual(headers.get("access-control-allow-headers"), "Authorization" if allowed else None)
+                self.assertEqual(headers.get("access-control-allow-headers"), "Authorization, Content-Type" if allowed else None)
+                self.assertEqual(headers.get("access-control-allow-methods"), "GET, PUT, DELETE" if allowed else None)
 
     async def test_who_shows_none_may_have_a_role(self):
         server = self.start(without_token="view")

@@ -19,7 +19,7 @@ struct Guest {
       : connection(connect(host, scene)), reader(connection->shared_viewer()) {}
   static std::unique_ptr<Connection> connect(Host& host, const std::string& scene) {
     EXPECT_TRUE(host.find(scene)->reserve());
-    return std::make_unique<Connection>(host, *host.find(scene), protocol::Role::admin, "test");
+    return std::make_unique<Connection>(host, host.find(scene), protocol::Role::admin, "test");
   }
   void say(const std::string& text) { connection->receive(text, std::chrono::steady_clock::now()); }
   /// Says it and waits for the reply to request `id`.
