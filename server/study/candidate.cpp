@@ -53,9 +53,10 @@ Settings xpbd_settings() {
 
 template <class Description>
 Settings implicit_settings() {
-  Description loose, usual, tight;
-  loose.tolerance = 0.05;
+  Description loose, usual, close, tight;
+  loose.tolerance = 0.3;
   loose.newton_iterations = 1;
+  close.tolerance = 0.01;
   tight.tolerance = 0.001;
   tight.newton_iterations = 3;
   Settings settings;
@@ -66,7 +67,8 @@ Settings implicit_settings() {
     }
   };
   add(loose, {1, 2});
-  add(usual, {1, 2, 4, 8});
+  add(usual, {1, 2, 4});
+  add(close, {1, 2, 4});
   add(tight, {1, 2, 4, 8, 16});
   return settings;
 }

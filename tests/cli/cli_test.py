@@ -275,8 +275,8 @@ class Cost(CliTest):
         self.assertRegex(out, r"\nlevel 3: reference: BDF2 in double precision, .+\n")
         with open(self.folder / "cost.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        # bdf2 and backward_euler 10 settings each, xpbd 6, symplectic_euler 3; the scene's own, bdf2, is one of them.
-        self.assertEqual(len(rows), 2 * 31)
+        # bdf2 and backward_euler 13 settings each, xpbd 6, symplectic_euler 3; the scene's own, bdf2, is one of them.
+        self.assertEqual(len(rows), 2 * 35)
         self.assertEqual({row["integrator"] for row in rows}, {"bdf2", "backward_euler", "xpbd", "symplectic_euler"})
         self.assertEqual({row["status"] for row in rows}, {"done"})
         for level in "34":

@@ -24,7 +24,7 @@ struct Run {
   int rate;      ///< steps a second
   int substeps;  ///< explicit methods choose their own, which bdf2 and backward_euler do not
   double seconds;
-  double liveliness = 1, tolerance = 0.02;  ///< of implicit methods
+  double liveliness = 1, tolerance = Bdf2Description().tolerance;  ///< of implicit methods
 };
 
 void PrintTo(const Run& run, std::ostream* out) {

@@ -15,6 +15,8 @@ constexpr double kMostChange = 0.5;
 constexpr double kMostOwed = 0.4;
 /// Seconds in which what the motion had of late falls to 1/e.
 constexpr double kOfLate = 1;
+/// Of what gravity gives in a step: of a motion so slow a half is left as it is, of a slower one more.
+constexpr double kSlowStep = 0.02;
 /// Of what the motion loses in wind.
 constexpr double kKeptInWind = 0.5;
 
@@ -35,7 +37,7 @@ template <class Real>
 double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double motion, double dt) const {
   double mass = 0;
   for (const Real node : particles.mass.values()) mass += double(node);
-  const double slow = tolerance_ * standard_gravity().norm() * dt;
+  const double slow = kSlowStep * standard_gravity().norm() * dt;
   return motion / (motion + mass * slow * slow / 2);
 }
 

@@ -25,8 +25,8 @@ template <class Real>
 class EnergyLedger {
  public:
   /// `liveliness`, 0 to 1, is the share of what the motion lost or gained that is given back or taken; with 0
-  /// it only never has more than it had. `tolerance` is what a solve leaves of a step's forces, relative.
-  EnergyLedger(double liveliness, double tolerance) : liveliness_(liveliness), tolerance_(tolerance) {}
+  /// it only never has more than it had.
+  explicit EnergyLedger(double liveliness) : liveliness_(liveliness) {}
 
   /// As a step begins.
   void begin_step(const Particles<Real>& particles, const Forces<Real>& forces);
@@ -55,7 +55,7 @@ class EnergyLedger {
   /// Of what a motion of this energy loses in a step of `dt` seconds, what is given back.
   double kept_share(const Particles<Real>& particles, double motion, double dt) const;
 
-  double liveliness_, tolerance_;
+  double liveliness_;
   std::optional<Account> account_;  ///< nothing while something else drives the cloth
   double work_ = 0;                 ///< of the effects in this step, J
   VectorField<Real> force_, way_;   ///< work space

@@ -63,7 +63,7 @@ class Implicit final : public Integrator<Real> {
           last_move(grid),
           last_velocity(grid),
           correction(grid, 3),
-          ledger(parameters.liveliness, parameters.tolerance) {}
+          ledger(parameters.liveliness) {}
 
     Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
     VectorField<Real> last_move, last_velocity;
@@ -104,7 +104,7 @@ class Implicit final : public Integrator<Real> {
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
-  void begin_substep(const Particles<Real>& particles, const LayerContacts<Real>* layers, double h);
+  void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
   /// Adds the springs' damping, by the nodes' moves so far, to the forces.

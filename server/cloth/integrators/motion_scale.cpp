@@ -9,13 +9,17 @@ namespace weft {
 namespace {
 
 /// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
-/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps free corners swinging at what puts to sleep.
+/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps
+/// free corners swinging at what puts to sleep.
 constexpr double kSlow = 5e-4;
 /// The same where rounding is what is left of such an error: where the stiffest mode's squared frequency
 /// times h^2 has no digit less than the scalar.
 constexpr double kSlowStiff = 5e-3;
 /// Sizes of the cloth a second. A slower cloth is near rest.
 constexpr double kNearRest = 5e-3;
+/// The most that a solve may leave of the speed that gravity gives in a substep, which a cloth that hangs or
+/// swings does not have.
+constexpr double kOfGravity = 0.02;
 /// Share of what gravity gives: free fall finds half of that, springs and solids that hold a sheet at rest a
 /// thousandth.
 constexpr double kFalls = 0.1;
@@ -90,10 +94,12 @@ double MotionScale<Real>::energy() const {
 template <class Real>
 SolveTarget MotionScale<Real>::target(double tolerance, bool contact) const {
   const double share = tolerance * tolerance;
-  const double least = share * (kinetic_ + mass_ * slow_ * slow_);
+  const double of_gravity = std::min(share, kOfGravity * kOfGravity);
+  const double least = share * kinetic_ + of_gravity * mass_ * slow_ * slow_;
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
-  return {least, near_rest() && contact ? 0 : share, std::max(least, share * (kinetic_ + still()))};
+  return {least, near_rest() && contact ? 0 : share,
+          std::max(least, share * kinetic_ + of_gravity * still())};
 }
 
 template class MotionScale<float>;

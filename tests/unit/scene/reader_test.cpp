@@ -45,7 +45,7 @@ TEST(Reader, DefaultsAreThoseOfTheDescription) {
   EXPECT_EQ(simulation.level_policy.levels, (std::vector<int>{6, 5, 4}));
   const auto& bdf2 = std::get<Bdf2Description>(simulation.integrator);
   EXPECT_EQ(bdf2.substeps, 1);
-  EXPECT_EQ(bdf2.tolerance, 0.02);
+  EXPECT_EQ(bdf2.tolerance, 0.1);
   EXPECT_EQ(bdf2.newton_iterations, 2);
 }
 

@@ -23,12 +23,13 @@ TEST(Candidates, XpbdHasTheSubstepsOfTheIssue) {
 TEST(Candidates, ImplicitOnesGoFromLooseToTight) {
   for (const std::string_view name : {"bdf2", "backward_euler"}) {
     const auto settings = settings_of(name);
-    ASSERT_EQ(settings.size(), 11u);
-    EXPECT_EQ(settings[0], "1 substep, tolerance 0.05");
-    EXPECT_EQ(settings[2], "1 substep, tolerance 0.02, 2 Newton");  // description.h's defaults
-    EXPECT_EQ(settings[5], "8 substeps, tolerance 0.02, 2 Newton");
-    EXPECT_EQ(settings[6], "1 substep, tolerance 0.001, 3 Newton");
-    EXPECT_EQ(settings[10], "16 substeps, tolerance 0.001, 3 Newton");
+    ASSERT_EQ(settings.size(), 13u);
+    EXPECT_EQ(settings[0], "1 substep, tolerance 0.3");
+    EXPECT_EQ(settings[2], "1 substep, tolerance 0.1, 2 Newton");  // description.h's defaults
+    EXPECT_EQ(settings[4], "4 substeps, tolerance 0.1, 2 Newton");
+    EXPECT_EQ(settings[5], "1 substep, tolerance 0.01, 2 Newton");
+    EXPECT_EQ(settings[8], "1 substep, tolerance 0.001, 3 Newton");
+    EXPECT_EQ(settings[12], "16 substeps, tolerance 0.001, 3 Newton");
   }
 }
 
@@ -44,7 +45,7 @@ TEST(Candidates, SubstepsChosenByTheirLengthAreTold) {
 
 TEST(Candidates, TheScenesOwnComesFirstAndOnce) {
   const auto all = candidates(integrator_names(), XpbdDescription{40});
-  EXPECT_EQ(all.size(), 11u + 11 + 6 + 3);
+  EXPECT_EQ(all.size(), 13u + 13 + 6 + 3);
   EXPECT_TRUE(all[0].present);
   EXPECT_EQ(name_of(all[0].integrator), "xpbd");
   std::set<std::string> different;
@@ -53,7 +54,7 @@ TEST(Candidates, TheScenesOwnComesFirstAndOnce) {
   }
   EXPECT_EQ(different.size(), all.size());
   EXPECT_EQ(candidates({"bdf2"}, XpbdDescription{41}).size(),
-            12u);  // even where its integrator is not asked for
+            14u);  // even where its integrator is not asked for
 }
 
 TEST(Candidates, TheFirstRoundHasSomethingOfEachIntegrator) {
