@@ -15,7 +15,7 @@ namespace weft::protocol {
 struct Hello {
   std::optional<std::string> client = {};  ///< the program's name
   std::vector<std::string> caps{};  ///< capabilities that the client has
-  int window{2};  ///< frames that may be unacknowledged, with `flow.ack`
+  int window{2};  ///< frames that may be unacknowledged, with `flow.ack`, beside those that the way has room for
 };
 /// `scene.list`: Asks which scenes there are.
 struct SceneList {};

@@ -4,17 +4,27 @@
 #include <utility>
 
 namespace weft::host {
+namespace {
+
+/// As many frames a second are sent at most.
+constexpr double kFrameRate = 60;
+/// Frames on the way at most beside those that a viewer asks for: of a second.
+constexpr int kMostMore = 60;
+/// An acknowledgement later than the way takes by more than this is of a frame that has queued.
+constexpr Viewer::Seconds kQueued{0.1};
+
+}  // namespace
 
 void Viewer::on_wake(std::function<void()> wake) {
   const std::lock_guard lock(mutex_);
   wake_ = std::move(wake);
 }
 
-std::optional<Outgoing> Viewer::take() {
+std::optional<Outgoing> Viewer::take(TimePoint now) {
   const std::lock_guard lock(mutex_);
   if (may_send_frame() && (texts_.empty() || !frame_was_last_)) {
     frame_was_last_ = true;
-    if (window_ > 0) outstanding_.push_back(newest_->frame);
+    if (window_ > 0) outstanding_.push_back({newest_->frame, now});
     return Outgoing{nullptr, std::exchange(newest_, nullptr)};
   }
   if (texts_.empty()) {
@@ -83,14 +93,29 @@ void Viewer::enable_acks(int window) {
   wake_if_idle();
 }
 
-bool Viewer::acknowledge(std::uint32_t frame) {
+bool Viewer::acknowledge(std::uint32_t frame, TimePoint now) {
   const std::lock_guard lock(mutex_);
   // The last one of that number: a paused scene sends one step more than once.
-  const auto found = std::find(outstanding_.rbegin(), outstanding_.rend(), frame);
+  const auto found = std::find_if(outstanding_.rbegin(), outstanding_.rend(),
+                                  [&](const Sent& sent) { return sent.frame == frame; });
   if (found == outstanding_.rend()) return false;
+  // One at a time, up as down: what is sent now is told of a round trip later.
+  const bool queued = now - found->when > round_trip_ + kQueued;
+  const int room = std::min(kMostMore, static_cast<int>(round_trip_.count() * kFrameRate));
+  more_ = queued ? std::max(0, more_ - 1) : std::min(room, more_ + 1);
   outstanding_.erase(outstanding_.begin(), found.base());
   wake_if_idle();
   return true;
+}
+
+void Viewer::round_trip(Seconds time) {
+  const std::lock_guard lock(mutex_);
+  round_trip_ = time;
+}
+
+int Viewer::window() const {
+  const std::lock_guard lock(mutex_);
+  return window_ + more_;
 }
 
 std::uint64_t Viewer::dropped() const {
@@ -114,7 +139,7 @@ void Viewer::push(Text text, std::string_view key) {
 
 bool Viewer::may_send_frame() const {
   return newest_ && before_frame_ == 0 &&
-         (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_));
+         (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_ + more_));
 }
 
 void Viewer::wake_if_idle() {

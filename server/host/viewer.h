@@ -1,5 +1,6 @@
 #pragma once
 /// What waits to be sent to one viewer: its control messages in order, and its newest frame.
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -44,10 +45,13 @@ class Viewer {
   /// and when the outbox overflows. Set it before the first take(). It must not use the viewer. When
   /// on_wake(nullptr) has returned, it is not called any more and no call is under way.
   void on_wake(std::function<void()> wake);
-  /// The next message. Control messages keep their order. A frame is taken only while fewer than the window
-  /// are unacknowledged, and never before a control message without a key that was sent before the frame was
+  using TimePoint = std::chrono::steady_clock::time_point;
+  using Seconds = std::chrono::duration<double>;
+
+  /// The next message. Control messages keep their order. A frame is taken only while fewer than window() are
+  /// unacknowledged, and never before a control message without a key that was sent before the frame was
   /// published; where both a control message and a frame may be taken they take turns.
-  std::optional<Outgoing> take();
+  std::optional<Outgoing> take(TimePoint now = std::chrono::steady_clock::now());
   /// More than kMaxTexts waited; what came after them is lost, so the viewer must be closed.
   bool overflowed() const;
 
@@ -69,10 +73,17 @@ class Viewer {
   /// Begins a stay in a scene and names it: nothing of the scene before is sent any more, nor awaits an
   /// acknowledgement.
   std::uint64_t enter();
-  /// Capability flow.ack: at most `window` frames are unacknowledged from now on.
+  /// Capability flow.ack: `window` frames may be unacknowledged from now on, and as many more as the way
+  /// there and back has room for (round_trip).
   void enable_acks(int window);
-  /// The frame and those sent before it have been consumed. False if no such frame was outstanding.
-  bool acknowledge(std::uint32_t frame);
+  /// The frame and those sent before it have been consumed. False if no such frame was outstanding. One that
+  /// comes much later than the way takes tells that frames queue: on the way, or at a viewer that is slow.
+  bool acknowledge(std::uint32_t frame, TimePoint now = std::chrono::steady_clock::now());
+  /// What the way there and back takes, as the network's own ping measures it: it does not wait for the
+  /// viewer.
+  void round_trip(Seconds time);
+  /// Frames that may be unacknowledged now.
+  int window() const;
   /// Frames replaced by newer ones before they could be sent.
   std::uint64_t dropped() const;
 
@@ -99,8 +110,14 @@ class Viewer {
   int unanswered_ = 0;  ///< commands
   std::uint64_t visit_ = 0;
   std::uint64_t dropped_ = 0;
-  int window_ = 0;  ///< 0: without flow.ack
-  std::deque<std::uint32_t> outstanding_;
+  struct Sent {
+    std::uint32_t frame;
+    TimePoint when;
+  };
+  int window_ = 0;        ///< 0: without flow.ack
+  int more_ = 0;          ///< frames that may be on the way beside those
+  Seconds round_trip_{};  ///< 0: not known
+  std::deque<Sent> outstanding_;
 };
 
 }  // namespace weft::host

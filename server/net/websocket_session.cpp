@@ -3,12 +3,15 @@
 #include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
+#include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/connection.h"
@@ -29,6 +32,10 @@ constexpr auto kHandshakeTime = std::chrono::seconds(10);
 constexpr auto kIdleTime = std::chrono::seconds(60);
 /// For a viewer to take what it is sent last, and to answer the close.
 constexpr auto kCloseTime = std::chrono::seconds(2);
+/// Between two measurements of the way to a viewer, and how many of late count.
+constexpr auto kPingPeriod = std::chrono::seconds(1);
+constexpr std::size_t kWaysKept = 10;
+constexpr const char* kPingText = "way";
 constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004, kSceneEnded = 4005;
 
 /// Frames wait here, where newer ones replace them, and not in the kernel, where they grow old: 4 MB
@@ -54,6 +61,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
         ws_(std::move(stream), context.host.limits().messages_per_second),
         read_pause_(ws_.get_executor()),
         close_deadline_(ws_.get_executor()),
+        way_timer_(ws_.get_executor()),
         connection_(context.host, std::move(scene), role, context.options.version) {
     context_.viewers.insert(this);
   }
@@ -82,6 +90,9 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     }));
     ws_.auto_fragment(false);
     ws_.read_message_max(context_.host.limits().message_bytes);
+    // Called as long as messages are read, which holds the session.
+    ws_.control_callback(
+        [this](websocket::frame_type kind, beast::string_view text) { on_control(kind, text); });
     connection_.viewer().on_wake([weak = weak_from_this(), executor = ws_.get_executor()] {
       asio::post(executor, [weak] {
         if (const auto self = weak.lock()) self->pump();
@@ -114,6 +125,28 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     accepted_ = true;
     read();
     pump();
+    measure_way();
+  }
+
+  /// Now and every second, by a ping of the WebSocket, which whoever is at the other end answers at once,
+  /// however long it takes over frames. The shortest of late counts: others have waited behind frames.
+  void measure_way() {
+    if (!pinged_) {
+      pinged_ = std::chrono::steady_clock::now();
+      ws_.async_ping(kPingText, [self = shared_from_this()](error_code) {});
+    }
+    way_timer_.expires_after(kPingPeriod);
+    way_timer_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (!error && self && !self->closing_) self->measure_way();
+    });
+  }
+
+  void on_control(websocket::frame_type kind, beast::string_view text) {
+    if (kind != websocket::frame_type::pong || text != kPingText || !pinged_) return;
+    ways_.push_back(std::chrono::steady_clock::now() - *std::exchange(pinged_, std::nullopt));
+    if (ways_.size() > kWaysKept) ways_.pop_front();
+    viewer().round_trip(*std::min_element(ways_.begin(), ways_.end()));
   }
 
   void read() {
@@ -215,6 +248,9 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   websocket::stream<GatedStream> ws_;
   asio::steady_timer read_pause_;
   asio::steady_timer close_deadline_;
+  asio::steady_timer way_timer_;
+  std::optional<std::chrono::steady_clock::time_point> pinged_;  ///< without an answer yet
+  std::deque<host::Viewer::Seconds> ways_;
   std::string peer_;
   beast::flat_buffer incoming_;
   host::Outgoing outgoing_;    ///< what is being written

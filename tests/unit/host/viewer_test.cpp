@@ -1,3 +1,7 @@
+#include <chrono>
+#include <deque>
+#include <utility>
+
 #include "host/viewer.h"
 
 #include <gtest/gtest.h>
@@ -94,6 +98,49 @@ TEST(Viewer, WindowBoundsTheUnacknowledged) {
     viewer.publish(visit, frame(f));
     EXPECT_EQ(next_frame(viewer), static_cast<int>(f));
   }
+}
+
+/// Frames a second that are taken from a scene of 60 a second, by a viewer that acknowledges each so long
+/// after it was sent as the way there and back and itself take.
+double rate_by(double way, double viewer_takes, double window_at_end) {
+  using Seconds = Viewer::Seconds;
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  viewer.enable_acks(2);
+  viewer.round_trip(Seconds(way));
+  const auto at = [](double seconds) {
+    return Viewer::TimePoint(std::chrono::duration_cast<Viewer::TimePoint::duration>(Seconds(seconds + 100)));
+  };
+  std::deque<std::pair<double, std::uint32_t>> acks;  // when the server has it
+  int taken = 0;
+  double free_at = 0;  // when the viewer has done with what came before
+  for (std::uint32_t step = 0; step < 600; ++step) {
+    const double now = step / 60.0;
+    while (!acks.empty() && acks.front().first <= now) {
+      viewer.acknowledge(acks.front().second, at(acks.front().first));
+      acks.pop_front();
+    }
+    viewer.publish(visit, frame(step + 1));
+    if (const auto next = viewer.take(at(now))) {
+      ++taken;
+      free_at = std::max(free_at, now + way / 2) + viewer_takes;
+      acks.emplace_back(free_at + way / 2, next->frame->frame);
+    }
+  }
+  EXPECT_EQ(viewer.window(), window_at_end) << way << " " << viewer_takes;
+  return taken / 10.0;
+}
+
+TEST(Viewer, ALongWayHasRoomForMoreFrames) {
+  EXPECT_GT(rate_by(0, 0, 2), 59);
+  EXPECT_GT(rate_by(0.05, 0, 5), 55);
+  EXPECT_GT(rate_by(0.2, 0, 14), 50);  // 9.8 with two on the way
+}
+
+TEST(Viewer, ASlowViewerGetsNoMoreThanItTakes) {
+  // It takes 5 a second, so that each waits for it.
+  EXPECT_LT(rate_by(0, 0.2, 2), 6);
+  EXPECT_LT(rate_by(0.1, 0.2, 2), 6);
 }
 
 TEST(Viewer, AcknowledgingWhatWasNotSentChangesNothing) {
