@@ -6,7 +6,7 @@ import {pathToFileURL} from 'node:url';
 import {openPage} from './harness.mjs';
 
 test('the diagram', async () => {
-  const {page} = await openPage(pathToFileURL(process.env.WEFT_COST).href, {viewport: {width: 1240, height: 900}});
+  const {page} = await openPage(pathToFileURL(process.env.WEFT_COST).href, {viewport: {width: 1240, height: 900}, deviceScaleFactor: 960 / 1240});
   await page.waitForSelector('.panel .point');
-  await page.screenshot({path: join(process.env.WEFT_SCREENSHOTS, 'work-precision.png'), fullPage: true});
+  await page.screenshot({path: join(process.env.WEFT_SCREENSHOTS, 'work-precision.jpg'), fullPage: true, quality: 85});
 });
