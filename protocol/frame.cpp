@@ -87,6 +87,16 @@ bool usable(const Quantisation& lattice) {
   });
 }
 
+FrameStamp stamp_of(std::span<const std::uint8_t> header) {
+  FrameStamp stamp;
+  stamp.frame = get<std::uint32_t>(header, kFrameAt);
+  stamp.epoch = get<std::uint32_t>(header, kEpochAt);
+  stamp.time = get<double>(header, kTimeAt);
+  stamp.server_ms = get<std::uint32_t>(header, kServerMsAt);
+  stamp.flags = static_cast<std::uint16_t>(get<std::uint16_t>(header, kFlagsAt) & ~kFlagLast);
+  return stamp;
+}
+
 /// The records of one message, one after the other; the first fault ends it.
 class Reader {
  public:
@@ -123,12 +133,7 @@ class Reader {
 
   /// All records of a message are of one step.
   bool stamp(std::span<const std::uint8_t> header) {
-    FrameStamp stamp;
-    stamp.frame = get<std::uint32_t>(header, kFrameAt);
-    stamp.epoch = get<std::uint32_t>(header, kEpochAt);
-    stamp.time = get<double>(header, kTimeAt);
-    stamp.server_ms = get<std::uint32_t>(header, kServerMsAt);
-    stamp.flags = static_cast<std::uint16_t>(get<std::uint16_t>(header, kFlagsAt) & ~kFlagLast);
+    const FrameStamp stamp = stamp_of(header);
     if (!std::isfinite(stamp.time)) return fail("time is not finite");
     if (stamped_ && (stamp.frame != frame_.stamp.frame || stamp.epoch != frame_.stamp.epoch))
       return fail("records of different steps");
@@ -310,6 +315,13 @@ std::vector<std::uint8_t> encode_obstacles_record(const FrameStamp& stamp,
 
 void mark_last(std::vector<std::uint8_t>& message, std::size_t offset) {
   message[offset + kFlagsAt] |= static_cast<std::uint8_t>(kFlagLast);
+}
+
+std::optional<FrameStamp> read_stamp(std::span<const std::uint8_t> message) {
+  if (message.size() < kHeaderBytes || std::memcmp(message.data(), kMagic.data(), kMagic.size()) != 0 ||
+      message[kVersionAt] != kVersion)
+    return std::nullopt;
+  return stamp_of(message);
 }
 
 bool decode_frame(std::span<const std::uint8_t> message, Frame& frame, std::string& error) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Binary messages of PROTOCOL.md section 4: records <-> bytes.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,6 +68,10 @@ struct Frame {
   std::vector<FrameBall> balls;
   std::vector<FrameObstacle> obstacles;
 };
+
+/// What the first record's header says of the message's step, without a look at the rest; nothing if that is
+/// not a header. For whoever counts frames.
+std::optional<FrameStamp> read_stamp(std::span<const std::uint8_t> message);
 
 /// Decodes one binary message. False, with a reason in `error`, on anything malformed.
 bool decode_frame(std::span<const std::uint8_t> message, Frame& frame, std::string& error);

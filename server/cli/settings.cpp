@@ -26,6 +26,12 @@ std::string variable_of(std::string name) {
   return "WEFT_" + name;
 }
 
+std::string joined(const Values& values) {
+  std::string text;
+  for (const std::string& value : values) text.append(text.empty() ? "" : ", ").append(value);
+  return text;
+}
+
 Values separated(const std::string& text) {
   Values values;
   std::size_t begin = 0;
@@ -35,6 +41,10 @@ Values separated(const std::string& text) {
     begin = end + 1;
   }
   return values;
+}
+
+BadSetting unknown(const std::filesystem::path& file, const std::string& name, const Values& known) {
+  return BadSetting(file.string() + ": " + name + " is unknown; allowed: " + joined(known));
 }
 
 /// By option.
@@ -51,11 +61,7 @@ std::map<std::string, Values> read_file(const std::filesystem::path& file, const
       throw BadSetting(file.string() + ": [" + item.parents.front() +
                        "] is unknown; allowed: options, without tables");
     const std::string name = item.name;
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      std::string all;
-      for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
-      throw BadSetting(file.string() + ": " + name + " is unknown; allowed: " + all);
-    }
+    if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown(file, name, known);
     if (!found.emplace(name, std::move(item.inputs)).second)
       throw BadSetting(file.string() + ": " + name + " is given twice");
   }
@@ -64,8 +70,7 @@ std::map<std::string, Values> read_file(const std::filesystem::path& file, const
 
 void take(CLI::Option& option, const Values& values, const std::string& source) {
   const std::string name = option.get_lnames().front();
-  std::string shown;
-  for (const std::string& value : values) shown += (shown.empty() ? "" : ", ") + value;
+  const std::string shown = joined(values);
   try {
     if (values.size() > 1 && option.get_items_expected_max() == 1)
       throw CLI::ValidationError("one value is allowed");
@@ -124,14 +129,14 @@ std::string to_text(const std::vector<Setting>& settings) {
   std::string text;
   for (const Setting& setting : settings) {
     if (setting.values.empty()) {
-      text += "# " + setting.name + " =\n";
+      text.append("# ").append(setting.name).append(" =\n");
       continue;
     }
-    std::string value;
-    for (const std::string& each : setting.values)
-      value += (value.empty() ? "" : ", ") + (setting.flag ? each : quoted(each));
-    if (setting.values.size() > 1) value = "[" + value + "]";
-    text += setting.name + " = " + value + "  # " + setting.source + "\n";
+    Values values = setting.values;
+    if (!setting.flag) std::transform(values.begin(), values.end(), values.begin(), quoted);
+    const bool several = values.size() > 1;
+    text.append(setting.name).append(several ? " = [" : " = ").append(joined(values));
+    text.append(several ? "]  # " : "  # ").append(setting.source).append("\n");
   }
   return text;
 }

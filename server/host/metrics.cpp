@@ -32,8 +32,11 @@ prometheus::Gauge& gauge(Registry& registry, const char* name, const char* help,
 }
 
 /// From a tenth of a millisecond to the length of a few frames, s.
-const prometheus::Histogram::BucketBoundaries kStepSeconds{1e-4,  2e-4,  5e-4,  1e-3,  2e-3,  4e-3, 8e-3,
-                                                           12e-3, 16e-3, 24e-3, 32e-3, 64e-3, 0.25, 1};
+const prometheus::Histogram::BucketBoundaries& step_seconds() {
+  static const prometheus::Histogram::BucketBoundaries seconds{1e-4,  2e-4,  5e-4,  1e-3,  2e-3,  4e-3, 8e-3,
+                                                               12e-3, 16e-3, 24e-3, 32e-3, 64e-3, 0.25, 1};
+  return seconds;
+}
 
 auto& counters(Registry& registry, const char* name, const char* help) {
   return BuildCounter().Name(name).Help(help).Register(registry);
@@ -60,7 +63,7 @@ Metric& SceneMetrics::add(prometheus::Family<Metric>& family, const Labels& labe
 
 SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene)
     : seconds_(add(BuildHistogram().Name("weft_step_seconds").Help("Wall time of a step").Register(registry),
-                   {{"scene", scene}}, kStepSeconds)),
+                   {{"scene", scene}}, step_seconds())),
       overruns_(add(counters(registry, "weft_step_overruns_total",
                              "Steps in real time that took longer than the time they stand for"),
                     {{"scene", scene}})),

@@ -138,8 +138,9 @@ void Viewer::push(Text text, std::string_view key) {
 }
 
 bool Viewer::may_send_frame() const {
+  const int most = window_ + more_;
   return newest_ && before_frame_ == 0 &&
-         (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(window_ + more_));
+         (window_ == 0 || outstanding_.size() < static_cast<std::size_t>(most));
 }
 
 void Viewer::wake_if_idle() {

@@ -33,6 +33,10 @@ std::string text_of(const std::filesystem::path& file) {
   return text;
 }
 
+std::runtime_error unknown(const std::string& path, const std::string& member, const std::string& allowed) {
+  return std::runtime_error(path + "/" + member + " is unknown; allowed: " + allowed);
+}
+
 /// `allowed`: the members that `object` may have.
 void check_members(const json& object, const std::string& path,
                    const std::vector<std::string_view>& allowed) {
@@ -42,7 +46,7 @@ void check_members(const json& object, const std::string& path,
     throw std::runtime_error((path.empty() ? "the document" : path) + " must be an object of " + names);
   for (const auto& member : object.items()) {
     if (std::find(allowed.begin(), allowed.end(), member.key()) == allowed.end())
-      throw std::runtime_error(path + "/" + member.key() + " is unknown; allowed: " + names);
+      throw unknown(path, member.key(), names);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "net/resolve.h"
 #include "net/tls.h"
 #include "net/transport.h"
 #include "protocol/message.h"
@@ -33,8 +34,6 @@ constexpr auto kGoodbyeTime = std::chrono::seconds(2);
 /// A frame of section 6's largest records, for a scene of many cloths.
 constexpr std::size_t kMessageBytes = 64 << 20;
 
-std::string host_header(const Url& url) { return url.host + ":" + url.port; }
-
 /// Runs `io` until `done`, at most until `until`; whether it is done.
 template <class Done>
 bool run_until(asio::io_context& io, std::chrono::steady_clock::time_point until, const Done& done) {
@@ -45,19 +44,6 @@ bool run_until(asio::io_context& io, std::chrono::steady_clock::time_point until
     if (io.run_one_until(until) == 0 && std::chrono::steady_clock::now() >= until) return false;
   }
   return true;
-}
-
-/// In the URL an IPv6 address stands in brackets.
-std::string unbracketed(const std::string& host) {
-  return host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
-}
-
-tcp::resolver::results_type resolve(asio::io_context& io, const Url& url) {
-  error_code error;
-  tcp::resolver resolver(io);
-  auto found = resolver.resolve(unbracketed(url.host), url.port, error);
-  if (error) throw ConnectionError(host_header(url) + ": " + error.message());
-  return found;
 }
 
 /// Begins TLS on a stream that is connected, with whom the URL names.

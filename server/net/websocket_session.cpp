@@ -144,7 +144,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 
   void on_control(websocket::frame_type kind, beast::string_view text) {
     if (kind != websocket::frame_type::pong || text != kPingText || !pinged_) return;
-    ways_.push_back(std::chrono::steady_clock::now() - *std::exchange(pinged_, std::nullopt));
+    ways_.emplace_back(std::chrono::steady_clock::now() - *std::exchange(pinged_, std::nullopt));
     if (ways_.size() > kWaysKept) ways_.pop_front();
     viewer().round_trip(*std::min_element(ways_.begin(), ways_.end()));
   }
