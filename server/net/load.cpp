@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -126,7 +127,7 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
     ws_.text(true);
     ws_.async_write(asio::buffer(queue_.front()), [self = shared_from_this()](error_code error, std::size_t) {
       if (error) return;  // the read that is under way tells why
-      self->queue_.erase(self->queue_.begin());
+      self->queue_.pop_front();
       if (!self->queue_.empty()) self->write();
     });
   }
@@ -204,7 +205,7 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
   Tally& tally_;
   websocket::response_type response_;
   beast::flat_buffer incoming_;
-  std::vector<std::string> queue_;
+  std::deque<std::string> queue_;  ///< of what is being sent the first; one that is pushed moves none
   std::int64_t last_id_ = 0;
   std::uint64_t frames_ = 0;
   std::uint32_t shown_ = 0;
