@@ -90,20 +90,21 @@ bool LiveScene::sees(const Seat& seat, std::size_t cloth) const {
 }
 
 bool LiveScene::unseen(std::size_t cloth) const {
+  const bool all = nobody_placed();
   return std::all_of(seats_.begin(), seats_.end(),
-                     [&](const Seat& seat) { return !decides(seat) || lost(seat, cloth); });
+                     [&](const Seat& seat) { return !(all || seat.placed) || lost(seat, cloth); });
 }
 
-bool LiveScene::decides(const Seat& seat) const {
-  return seat.placed ||
-         std::none_of(seats_.begin(), seats_.end(), [](const Seat& other) { return other.placed; });
+bool LiveScene::nobody_placed() const {
+  return std::none_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.placed; });
 }
 
 void LiveScene::request_levels() {
   if (seats_.empty()) return;
   std::vector<int> wanted(simulation_.cloths().size(), 0);
+  const bool all = nobody_placed();
   for (const Seat& seat : seats_) {
-    if (!decides(seat)) continue;
+    if (!all && !seat.placed) continue;
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], seat.levels[i]);
   }
   quality_.want_level(*std::max_element(wanted.begin(), wanted.end()));

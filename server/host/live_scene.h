@@ -139,12 +139,11 @@ class LiveScene {
   bool sees(const Seat& seat, std::size_t cloth) const;
   /// The viewer has not seen the cloth for kUnseenTime.
   bool lost(const Seat& seat, std::size_t cloth) const { return seat.steps_unseen[cloth] > unseen_steps_; }
-  /// No viewer that decides has.
+  /// No viewer that counts has. One that has just come and has not sent its camera yet does not count for
+  /// what is simulated, so that a join changes nothing of what others see; where nobody has, all do.
   bool unseen(std::size_t cloth) const;
-  /// Whether it counts for what is simulated where the seat's viewer is. One that has just come and has not
-  /// sent its camera yet does not, so that a join changes nothing of what others see; where nobody has, all
-  /// do.
-  bool decides(const Seat& seat) const;
+  /// Nobody has sent its camera.
+  bool nobody_placed() const;
   void request_levels();
   void use_chosen_integrator();
   std::optional<protocol::Error> missing_effect(const std::string& effect) const;

@@ -14,10 +14,10 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
+#include "net/answers.h"
 #include "net/credentials.h"
 #include "net/origin.h"
 #include "net/request_rules.h"
@@ -34,8 +34,6 @@ namespace {
 
 constexpr auto kRequestTime = std::chrono::seconds(10);   // for the whole header, and between requests
 constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
-/// A scene that has been at one step for so long is reported.
-constexpr std::chrono::duration<double> kStuckTime{5.0};
 constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
 constexpr unsigned kFirstError = 400;  // of HTTP's statuses
@@ -49,23 +47,10 @@ constexpr const char* kContentPolicy =
     "'self' 'unsafe-inline'; "
     "object-src 'none'; base-uri 'none'; frame-ancestors 'self'";
 
-/// What is answered, but for the headers that every answer has.
-struct Answer {
-  http::status status = http::status::ok;
-  std::shared_ptr<const std::string> content;
-  std::string_view media_type = "text/plain; charset=utf-8";
-  std::string etag;
-  std::string location = {};
-};
-
 bool is_this_machine(const boost::asio::ip::address& address) {
   if (address.is_v6() && address.to_v6().is_v4_mapped())
     return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).is_loopback();
   return address.is_loopback();
-}
-
-Answer plain(http::status status, std::string text) {
-  return {status, std::make_shared<const std::string>(std::move(text)), "text/plain; charset=utf-8", ""};
 }
 
 }  // namespace
@@ -153,19 +138,17 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(
           plain(http::status::method_not_allowed, "only GET and HEAD, and PUT and DELETE of scenes\n"), last);
     }
-    if (path == kHealth) return write(health(), last);
-    if (path == kReady) return write(readiness(), last);
-    if (place_.refusal() != NoPlace::none) return write(no_place(), last);
+    if (path == kHealth) return write(health(context_), last);
+    if (path == kReady) return write(readiness(context_), last);
+    if (place_.refusal() != NoPlace::none) return write(no_place(context_, place_.refusal()), last);
     if (must_be_secure()) return write(secure_address(), last);
-    if (path == kMetrics) return write(metrics(), last);
+    if (path == kMetrics) return write(metrics_if_allowed(), last);
     if (of_scenes) {
       if (const auto refusal = find_role()) return write(*refusal, last);
     }
     if (path == kScenes || path == kScene) {
       const nlohmann::json list = {{"scenes", context_.host.list()}};
-      Answer answer = plain(http::status::ok, list.dump());
-      answer.media_type = "application/json";
-      return write(answer, last);
+      return write(json_answer(http::status::ok, list.dump()), last);
     }
     const std::size_t meshes = path.find(kMeshes);
     if (path.starts_with(kScene) && meshes != path.npos) {
@@ -217,48 +200,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                                                  : "a token is needed: Authorization: Bearer TOKEN\n");
   }
 
-  /// Whether every scene steps in time; if not, which do not.
-  Answer health() const {
-    std::string late;
-    for (const auto& scene : context_.host.scenes()) {
-      const std::chrono::duration<double> busy = scene->busy_for();
-      if (busy < kStuckTime) continue;
-      char seconds[32];
-      std::snprintf(seconds, sizeof seconds, "%.1f", busy.count());
-      late += "scene " + scene->name() + ": no step for " + seconds + " s\n";
-    }
-    return late.empty() ? plain(http::status::ok, "ok")
-                        : plain(http::status::service_unavailable, std::move(late));
-  }
-
-  /// Whether another viewer should be sent here; if not, why.
-  Answer readiness() const {
-    if (context_.stopping) return plain(http::status::service_unavailable, "the server stops\n");
-    if (context_.connections.taken() >= context_.options.max_connections)
-      return plain(http::status::service_unavailable, "all connections are taken\n");
-    return health();
-  }
-
   /// For those who run the server.
-  Answer metrics() {
+  Answer metrics_if_allowed() {
     if (const auto refusal = find_role()) return *refusal;
     if (role_ < protocol::Role::admin) return plain(http::status::forbidden, "only for the role admin\n");
-    context_.host.metrics().connections(context_.connections.taken());
-    context_.host.metrics().viewers(context_.viewers.size());
-    Answer answer = plain(http::status::ok, context_.host.metrics().text());
-    answer.media_type = "text/plain; version=0.0.4; charset=utf-8";
-    return answer;
-  }
-
-  Answer no_place() const {
-    if (place_.refusal() == NoPlace::all_taken)
-      return plain(http::status::service_unavailable,
-                   std::to_string(context_.options.max_connections) +
-                       " connections are open, the most allowed (--connections)\n");
-    return plain(http::status::too_many_requests,
-                 std::to_string(context_.options.max_connections_per_address) +
-                     " connections from your address are open, the most allowed "
-                     "(--connections-per-address)\n");
+    return metrics(context_);
   }
 
   /// The mesh that GET /v1/scenes/NAME/meshes/OBSTACLE asks for; nullptr if there is none.
@@ -273,7 +219,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   /// PUT and DELETE of /v1/scenes/NAME.
   void change_scenes(std::string name, bool last) {
     const HttpRequest& request = parser_->get();
-    if (place_.refusal() != NoPlace::none) return write(no_place(), last);
+    if (place_.refusal() != NoPlace::none) return write(no_place(context_, place_.refusal()), last);
     if (must_be_secure()) return write(secure_address(), last);
     if (const auto refusal = find_role()) return write(*refusal, last);
     if (!origin_allowed(view(request[http::field::origin]), view(request[http::field::host]),
@@ -306,21 +252,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                     !self->parser_->get().keep_alive());
       });
     });
-  }
-
-  static Answer not_made(const host::NotMade& no) {
-    using Why = host::NotMade::Why;
-    nlohmann::json problems = nlohmann::json::array();
-    for (const scene::Problem& problem : no.problems)
-      problems.push_back({{"path", problem.path}, {"message", problem.message}});
-    const auto status = no.why == Why::exists      ? http::status::conflict
-                        : no.why == Why::full      ? http::status::service_unavailable
-                        : no.why == Why::too_large ? http::status::payload_too_large
-                                                   : http::status::unprocessable_entity;
-    const nlohmann::json body{{"message", no.text}, {"problems", problems}};
-    Answer answer = plain(status, body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-    answer.media_type = "application/json";
-    return answer;
   }
 
   void end_scene(const std::string& name, bool last) {

@@ -103,6 +103,7 @@ class Tls(unittest.IsolatedAsyncioTestCase):
         old = subprocess.run(["openssl", "s_client", "-connect", f"127.0.0.1:{server.port}", "-tls1_1", "-cipher", "ALL:@SECLEVEL=0"],
                              input=b"", capture_output=True, timeout=GENEROUS)
         self.assertNotEqual(old.returncode, 0)
+        self.assertIn(b"alert protocol version", old.stderr)  # the server's word, not the client's
 
     def test_a_close_and_its_reason_arrive(self):
         server = self.start()

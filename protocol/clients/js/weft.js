@@ -544,7 +544,7 @@ export class Commands {
  * @property {(error: Error) => void} [onerror] malformed frames, and what onframe throws; default: console.error
  * @property {string} [client] name told to the server
  * @property {string} [token] the server's, where it asks for one: 16 to 128 letters, digits or any of "-._~"
- * @property {number} [window] unacknowledged frames, 1..8 (default 2); 0: no flow control, the server sends as fast as it can
+ * @property {number} [window] unacknowledged frames, 1..8 (default 2), beside those that the way has room for; 0: no flow control, the server sends as fast as it can
  * @property {boolean} [local] as decodeFrame's (default false)
  * @property {number} [timeout] ms to wait for a connection or a reply (default 5000)
  * @property {boolean} [reconnect] come back after a lost connection, and keep trying at first: 0.25 s, doubled up to 10 s,

@@ -289,7 +289,7 @@ async def connect(url: str, *, client: typing.Optional[str] = None, window: int 
     on the flow of frames.
 
     client      name told to the server
-    window      unacknowledged frames, 1..8; 0: no flow control, the server sends as fast as it can
+    window      unacknowledged frames, 1..8, beside those that the way has room for; 0: no flow control, the server sends as fast as it can
     timeout     s to wait for the connection, and for each reply
     on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `curve`,
                 `notice`, `error`

@@ -9,8 +9,7 @@ namespace weft {
 namespace {
 
 /// Sizes of the cloth a second. Of a slower motion the error allowed grows no smaller: with the default
-/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps
-/// free corners swinging at what puts to sleep.
+/// tolerance it is then 0.02 mm/s on 2 m. A looser one keeps free corners swinging at what puts to sleep.
 constexpr double kSlow = 5e-4;
 /// The same where rounding is what is left of such an error: where the stiffest mode's squared frequency
 /// times h^2 has no digit less than the scalar.
