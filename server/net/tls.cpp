@@ -5,7 +5,6 @@
 namespace weft::net {
 
 namespace ssl = boost::asio::ssl;
-using boost::system::error_code;
 
 namespace {
 
@@ -16,7 +15,7 @@ TlsContext context_of(ssl::context::method method) {
   return context;
 }
 
-void check(const error_code& error, const char* what, const std::filesystem::path& file) {
+void check(const boost::system::error_code& error, const char* what, const std::filesystem::path& file) {
   if (error) throw std::runtime_error(what + (" " + file.string()) + ": " + error.message());
 }
 
@@ -26,7 +25,7 @@ TlsContext server_tls(const std::filesystem::path& certificate, const std::files
   TlsContext context = context_of(ssl::context::tls_server);
   // A key under a passphrase is an error, not a question on the terminal.
   context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
-  error_code error;
+  boost::system::error_code error;
   context->use_certificate_chain_file(certificate.string(), error);
   check(error, "certificate", certificate);
   context->use_private_key_file(key.string(), ssl::context::pem, error);
@@ -36,7 +35,7 @@ TlsContext server_tls(const std::filesystem::path& certificate, const std::files
 
 TlsContext client_tls(const std::filesystem::path& authorities) {
   TlsContext context = context_of(ssl::context::tls_client);
-  error_code error;
+  boost::system::error_code error;
   if (authorities.empty()) {
     context->set_default_verify_paths(error);
     check(error, "certificates", "of the system");
