@@ -239,14 +239,17 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void make_scene(const std::string& name) {
-    boost::asio::post(context_.makers, [self = shared_from_this(), name] {
+    // The session goes back with the answer: were a maker's thread the last to hold it, it would end there,
+    // beside the network's thread.
+    boost::asio::post(context_.makers, [self = shared_from_this(), name]() mutable {
       std::optional<host::NotMade> no;
       try {
         no = self->context_.host.make(name, self->parser_->get().body());
       } catch (const std::exception& error) {  // most likely for want of memory
         no = host::NotMade{host::NotMade::Why::too_costly, error.what(), {}};
       }
-      boost::asio::post(self->stream_.get_executor(), [self, name, no = std::move(no)] {
+      const auto network = self->stream_.get_executor();
+      boost::asio::post(network, [self = std::move(self), name, no = std::move(no)] {
         if (!no) spdlog::info("scene {}: made by a client", name);
         self->write(no ? not_made(*no) : plain(http::status::created, "made\n"),
                     !self->parser_->get().keep_alive());
