@@ -1,7 +1,7 @@
 # Sourced by server/run, tests/run and docker/Dockerfile: what Weft needs on Debian 12, and how to get it.
 
 # To build and run the server. A command already on the machine (a newer Node.js, say) spares its package.
-build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libtbb-dev libboost-dev libssl-dev prometheus-cpp-dev
+build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libtbb-dev libboost-dev libssl-dev libcereal-dev prometheus-cpp-dev
                 nlohmann-json3-dev libcli11-dev libspdlog-dev libtinygltf-dev libqhull-dev libtinyobjloader-dev
                 nodejs npm)
 # To run the image: the shared libraries of the above.

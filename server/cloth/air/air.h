@@ -33,6 +33,13 @@ class Air {
   void add_eddies(double time, const Vec3& place, kernels::Components<const float> points, std::size_t count,
                   kernels::Components<float> velocity) const;
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(wind_, seed_, since_, so_far_);
+    if (Archive::is_loading::value) raise();
+  }
+
  private:
   void raise();
   Eddies::Progress progress(double time) const;

@@ -23,6 +23,10 @@ class Eddies {
   struct Progress {
     Vec3 carried{0, 0, 0};  ///< by the wind, m
     double turned = 0;      ///< their own way, u times the time, m
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(carried, turned);
+    }
   };
   /// Adds the eddies' velocity at each of `count` points as seen from `place`; `rms` is u, m/s.
   void add(const Progress& progress, double rms, const Vec3& place, kernels::Components<const float> points,

@@ -65,6 +65,12 @@ class Gas {
   /// By how much more the energy changes than the linearisation says if the free nodes move by `change`, J.
   double model_error(kernels::Components<const Real> position, kernels::Components<const Real> change);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(inflation_, begin_, begin_amount_, gradient_, volume_, amount_, pressure_, stiffness_);
+  }
+
  private:
   /// J, from one volume to another by `change`, m3.
   double energy_change(double volume, double change) const;

@@ -13,6 +13,10 @@ struct BodyHand {
   Vec3 point{0, 0, 0};       ///< what it holds, from the body's centre along its own axes, m
   Vec3 hand{0, 0, 0};        ///< m
   double max_force = 100;    ///< N, > 0; what it is pulled beyond it slips behind
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(id, obstacle, point, hand, max_force);
+  }
 };
 
 /// Gives the body what the hand does to it in a step of dt, s, in which gravity, m/s2, gets it next: the

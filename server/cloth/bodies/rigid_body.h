@@ -56,6 +56,12 @@ class RigidBody {
   /// Back to where the last step began, at rest.
   void stop(Pose& pose, Solid& solid);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(dynamic_, velocity_, turning_, start_, sharing_, pushed_, sped_up_, turned_, spun_up_);
+  }
+
  private:
   Vec3 middle_spin(const Quaternion& orientation, double dt) const;
 

@@ -44,11 +44,18 @@ Vec3 lasting(const Vec3& acceleration) {
 }  // namespace
 
 template <class Real>
+bool Layers<Real>::laid_out(const std::vector<Cloth<Real>>& cloths) const {
+  return std::equal(
+      grids_.begin(), grids_.end(), cloths.begin(), cloths.end(),
+      [](const Grid& grid, const Cloth<Real>& cloth) { return grid == cloth.particles().grid(); });
+}
+
+template <class Real>
 void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
+  if (laid_out(cloths)) return;
   std::vector<Grid> grids;
   grids.reserve(cloths.size());
   for (const Cloth<Real>& cloth : cloths) grids.push_back(cloth.particles().grid());
-  if (grids == grids_) return;
   grids_ = grids;
   search_.set_grids(grids);
   torn_.assign(cloths.size(), nullptr);
@@ -85,13 +92,16 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
 
 template <class Real>
 void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths) {
-  for (std::size_t k = 0; k < cloths.size(); ++k) {
-    const std::shared_ptr<const TornLinks>& torn = cloths[k].springs().torn();
-    if (torn == torn_[k]) continue;
-    torn_[k] = torn;
-    search_.set_torn(k, *torn);
-    contacts_[k]->set_torn(torn);
-  }
+  for (std::size_t k = 0; k < cloths.size(); ++k) take_over_tears(cloths, k);
+}
+
+template <class Real>
+void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths, std::size_t cloth) {
+  const std::shared_ptr<const TornLinks>& torn = cloths[cloth].springs().torn();
+  if (torn == torn_[cloth]) return;
+  torn_[cloth] = torn;
+  search_.set_torn(cloth, *torn);
+  contacts_[cloth]->set_torn(torn);
 }
 
 template <class Real>
@@ -250,27 +260,6 @@ bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
     cloths[k].moved_from_outside();
   }
   return met;
-}
-
-template <class Real>
-void Layers<Real>::take_state(const Layers* other, std::vector<Cloth<Real>>& cloths) {
-  lay_out(cloths);
-  if (other == nullptr || other->grids_ != grids_) {
-    grids_.clear();
-    lay_out(cloths);
-    return;
-  }
-  torn_ = other->torn_;
-  nodes_ = other->nodes_;
-  search_ = other->search_;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i]->take_state(*other->contacts_[i]);
-  pressed_ = other->pressed_;
-  on_solid_ = other->on_solid_;
-  left_out_ = other->left_out_;
-  found_ = other->found_;
-  cells_passed_ = other->cells_passed_;
-  may_be_tangled_ = other->may_be_tangled_;
-  tangled_ = other->tangled_;
 }
 
 template class Layers<float>;

@@ -25,15 +25,17 @@ class Layers {
  public:
   explicit Layers(const ClothContactEffect& parameters) : parameters_(parameters) {}
 
+  const ClothContactEffect& parameters() const { return parameters_; }
+
   /// Before the cloths' step of dt seconds.
   void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
   /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth; but none
   /// into a solid or through one.
   void end_step(std::vector<Cloth<Real>>& cloths, double dt);
 
-  /// The state of `other`, of the same effect, whose cloths these are copies of; nullptr: there is none, it
-  /// begins anew.
-  void take_state(const Layers* other, std::vector<Cloth<Real>>& cloths);
+  /// What lasts from step to step (world/state.h), among these cloths, whose own state is there.
+  template <class Archive>
+  void serialize(Archive& archive, std::vector<Cloth<Real>>& cloths);
 
   /// Nodes that are left alone, as the last step began.
   int tangled_nodes() const { return tangled_; }
@@ -45,8 +47,11 @@ class Layers {
 
  private:
   void lay_out(std::vector<Cloth<Real>>& cloths);
+  /// What lies over each other is of these grids.
+  bool laid_out(const std::vector<Cloth<Real>>& cloths) const;
   /// Takes over what was torn since the last step.
   void take_over_tears(const std::vector<Cloth<Real>>& cloths);
+  void take_over_tears(const std::vector<Cloth<Real>>& cloths, std::size_t cloth);
   void read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const;
   void read_masses(const std::vector<Cloth<Real>>& cloths);
   /// To the net, what goes on lying on solids is harder to move: it cannot give way into them.

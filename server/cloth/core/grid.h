@@ -32,6 +32,10 @@ struct Grid {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(col);
   }
   bool operator==(const Grid&) const = default;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(rows, cols, stride);
+  }
 };
 
 /// Cell counts of a cloth at level 0; level L has base * 2^L cells on each side. {1, 1} is the paper's
@@ -74,6 +78,10 @@ class Field {
   /// The whole storage, padding included: for elementwise loops over rows * stride scalars.
   std::vector<Real, AlignedAllocator<Real>>& values() { return values_; }
   const std::vector<Real, AlignedAllocator<Real>>& values() const { return values_; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(grid_, values_);
+  }
 
  private:
   Grid grid_;
@@ -92,6 +100,10 @@ struct VectorField {
     x.fill(value);
     y.fill(value);
     z.fill(value);
+  }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(x, y, z);
   }
 };
 

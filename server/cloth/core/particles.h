@@ -22,6 +22,11 @@ struct Particles {
   explicit Particles(const Grid& grid)
       : position(grid), velocity(grid), acceleration(grid), mass(grid), inverse_mass(grid) {}
   const Grid& grid() const { return position.grid(); }
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(place, position, velocity, acceleration, mass, inverse_mass);
+  }
 
   /// From the place, m.
   Vec3 local_position_at(int r, int c) const {

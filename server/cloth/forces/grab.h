@@ -12,6 +12,10 @@ struct Grab {
   Vec2 at{0.5, 0.5};       ///< (u, v) of the point, in [0, 1]
   Vec3 hand{0, 0, 0};      ///< in the world, m
   double max_force = 100;  ///< N, > 0; what the hand is pulled beyond it slips behind
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(id, at, hand, max_force);
+  }
 };
 
 /// The cloth's grabs, F = k (hand - x) - d v of the patch's mean x and v, as the mouse joints of rigid body

@@ -38,6 +38,10 @@ struct GuardEvent {
   std::size_t cloth = 0;      ///< index
   std::uint32_t ball = 0;     ///< ball_stopped: its ColliderId, in place of a cloth
   std::uint64_t step = 0;     ///< step_count() of the simulation after it
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(action, fault, value, limit, rung, cloth, ball, step);
+  }
 };
 
 /// One line for people: "cloth "flag": step 120 gave a speed of 2e+07 m/s (at most 1e+06): made again with 4
@@ -48,6 +52,11 @@ std::string describe(const GuardEvent& event, const std::string& cloth);
 struct GuardCounters {
   std::array<std::uint64_t, kRungs> redone{};  ///< steps made again, by the rung that did it; none by own
   std::uint64_t frozen = 0;                    ///< times
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(redone, frozen);
+  }
 
   std::uint64_t all_redone() const { return std::accumulate(redone.begin(), redone.end(), std::uint64_t{0}); }
 };

@@ -77,15 +77,31 @@ class StepGuard {
   /// What was done since the last call.
   std::vector<GuardEvent> take_events() { return std::exchange(events_, {}); }
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(own_, cell_, place_, position_, velocity_, sound_, speed_, rung_, trouble_, relapse_, good_steps_,
+            last_rung_, limits_, trial_limits_, hold_, hold_left_, frozen_, freeze_, freeze_left_, counters_,
+            events_);
+  }
+
  private:
   struct Finding {
     Fault fault = Fault::none;
     double value = 0, limit = 0;
     double speed = 0;  ///< m/s
     double strain = 0;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(fault, value, limit, speed, strain);
+    }
   };
   struct Limits {
     double speed = kMostSpeed, strain = kMostStrain;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(speed, strain);
+    }
   };
   Finding look_at(const Particles<Real>& particles) const;
   void keep(const Particles<Real>& particles, double speed);

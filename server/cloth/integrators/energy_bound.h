@@ -21,6 +21,12 @@ class EnergyBound {
   /// the integrator remembers of the motion it has to scale likewise (scale_motion).
   double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(most_, moving_, wait_);
+  }
+
  private:
   std::optional<double> most_;  ///< J; nothing while the cloth is driven
   double moving_ = 0;           ///< the largest kinetic energy seen since, J

@@ -40,6 +40,12 @@ class EnergyLedger {
   double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched,
                   AdvanceReport& report);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(account_, work_);
+  }
+
  private:
   struct Account {
     Drive drive;        ///< wind or nothing
@@ -47,6 +53,10 @@ class EnergyLedger {
     double owed = 0;    ///< J, that its motion lost before this step and did not get back
     double now;         ///< J, that it has as the step begins, without height
     double motion = 0;  ///< the inner motion's largest energy of late, J
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(drive, most, owed, now, motion);
+    }
   };
   /// Of springs and plate, J.
   static double stored(const Particles<Real>& particles, const Forces<Real>& forces);

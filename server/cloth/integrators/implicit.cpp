@@ -122,7 +122,6 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
   }
   if (state_->torn != forces.springs->torn()) {
     state_->torn = forces.springs->torn();
-    memory_->contacts.forget_points_between();
     state_->piece_mass = state_->torn ? piece_masses(*state_->torn, particles) : std::vector<double>();
   }
   if (state_->soft) forces.springs = &*state_->soft;

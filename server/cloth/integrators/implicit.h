@@ -51,8 +51,20 @@ class Implicit final : public Integrator<Real> {
     memory_.reset();
   }
   void stiffness_changed() override { state_.reset(); }
-  void take_memory(const Integrator<Real>& other) override {
-    memory_ = static_cast<const Implicit&>(other).memory_;
+  void torn() override {
+    if (memory_) memory_->contacts.forget_points_between();
+  }
+
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    bool remembers = memory_.has_value();
+    archive(remembers);
+    if (Archive::is_loading::value) {
+      memory_.reset();
+      if (remembers) memory_.emplace(Grid{}, parameters_);
+    }
+    if (memory_) archive(*memory_);
   }
 
  private:
@@ -74,6 +86,11 @@ class Implicit final : public Integrator<Real> {
     MomentumKeeper<Real> momentum;
 
     /// The node's next substep is one of backward Euler.
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(second_order, last_move, last_velocity, correction, h, contacts, ledger, momentum);
+    }
+
     void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }
   };
   /// All else that lives on one grid.

@@ -98,6 +98,11 @@ struct AdvanceReport {
 
   /// What this and the advance after it did together.
   AdvanceReport& operator+=(const AdvanceReport& next);
+  /// But for what the clock told (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(substeps, nodes_in_contact, linear_iterations, energy_lost, energy_given_back, sound);
+  }
 };
 
 /// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods. It
@@ -116,8 +121,8 @@ class Integrator {
   /// Springs or plate are of another stiffness: what was laid out for them is made anew, and the next step
   /// goes on from the steps before.
   virtual void stiffness_changed() {}
-  /// Goes on from what `other`, made by the same description, remembers of its steps.
-  virtual void take_memory(const Integrator&) {}
+  /// The sheet has torn since the last step.
+  virtual void torn() {}
 };
 
 template <class Real>

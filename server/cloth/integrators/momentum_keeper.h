@@ -31,6 +31,12 @@ class MomentumKeeper {
   /// What was before says nothing about what follows.
   void restart() { now_ = before_ = {}; }
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(now_, before_);
+  }
+
  private:
   /// Of the cloth alone.
   struct Motion {
@@ -41,6 +47,10 @@ class MomentumKeeper {
     Vec3 spin{0, 0, 0};      ///< angular momentum about the centre, N m s
     double kinetic = 0;      ///< energy beside the centre's, J
     /// Angular momentum about a point.
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(known, mass, centre, momentum, spin, kinetic);
+    }
     Vec3 about(const Vec3& point) const { return spin + (centre - point).cross(momentum); }
   };
   /// What comes from outside in a substep.

@@ -38,6 +38,12 @@ class SubstepRefinement {
                  const std::vector<Solid>& solids, double h, double dt);
   void restart() { *this = {}; }
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(times_, held_);
+  }
+
  private:
   int times_ = 1;
   double held_ = 0;  ///< s, that are left until that falls

@@ -32,9 +32,11 @@ class SymplecticEuler final : public Integrator<Real> {
     refinement_ = 1;
     bound_ = {};
   }
-  void take_memory(const Integrator<Real>& other) override {
-    refinement_ = static_cast<const SymplecticEuler&>(other).refinement_;
-    bound_ = static_cast<const SymplecticEuler&>(other).bound_;
+
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(refinement_, bound_);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "cloth/integrators/xpbd.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -86,10 +87,9 @@ template <class Real>
 void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) {
-    force_ = rounded_off_ = VectorField<Real>(grid);
-    layout_ = kernels::QuarterRows(grid);
+    rounded_off_ = VectorField<Real>(grid);
+    lay_out(grid);
     sheet_.assign(layout_.size(), Real(0));
-    row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
     multiplier_.clear();
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
@@ -98,23 +98,29 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& f
 }
 
 template <class Real>
+void Xpbd<Real>::lay_out(const Grid& grid) {
+  force_ = VectorField<Real>(grid);
+  layout_ = kernels::QuarterRows(grid);
+  row_.assign(static_cast<std::size_t>(grid.stride), Real(0));
+}
+
+template <class Real>
 void Xpbd<Real>::keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes) {
-  const auto is = [](const SpringFamily& family, const kernels::XpbdSprings<Real>& springs) {
-    return springs.rows == family.rows && springs.cols == family.cols;
-  };
-  if (!multiplier_.empty() &&
-      std::equal(families.rbegin(), families.rend(), springs_.begin(), springs_.end(), is))
-    return;
+  std::vector<std::array<int, 2>> now;  // as the kernels go through them
+  for (auto family = families.rbegin(); family != families.rend(); ++family)
+    now.push_back({family->rows, family->cols});
+  if (!multiplier_.empty() && now == families_) return;
   const auto before = std::exchange(multiplier_, {});
-  multiplier_.resize(families.size() * sheet_lanes);
+  const auto families_before = std::exchange(families_, now);
+  multiplier_.resize(now.size() * sheet_lanes);
   if (before.empty()) return;
   auto block = multiplier_.begin();
-  for (auto family = families.rbegin(); family != families.rend(); ++family) {
-    const auto same = std::find_if(springs_.begin(), springs_.end(),
-                                   [&](const auto& springs) { return is(*family, springs); });
-    if (same != springs_.end())
-      std::copy_n(before.begin() + (same - springs_.begin()) * static_cast<std::ptrdiff_t>(sheet_lanes),
-                  sheet_lanes, block);
+  for (const std::array<int, 2>& family : now) {
+    const auto same = std::find(families_before.begin(), families_before.end(), family);
+    if (same != families_before.end())
+      std::copy_n(
+          before.begin() + (same - families_before.begin()) * static_cast<std::ptrdiff_t>(sheet_lanes),
+          sheet_lanes, block);
     block += static_cast<std::ptrdiff_t>(sheet_lanes);
   }
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/substep_refinement.h"
 #include "cloth/kernels/plate_projection_kernels.h"
@@ -44,15 +46,23 @@ class Xpbd final : public Integrator<Real> {
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         std::vector<Solid>& solids, double time, double dt) override;
   void restart() override {
-    force_ = {};
+    force_ = rounded_off_ = {};
+    multiplier_.clear();
     refinement_.restart();
     times_ = 1;
   }
-  void take_memory(const Integrator<Real>& other) override { *this = static_cast<const Xpbd&>(other); }
+
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(refinement_, times_, rounded_off_, sheet_, multiplier_, families_);
+    if (Archive::is_loading::value && rounded_off_.grid().rows > 0) lay_out(rounded_off_.grid());
+  }
 
  private:
   /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
+  void lay_out(const Grid& grid);
   void prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time, double h);
   /// Those of families that were there before; families without stiffness are left out of the list.
   void keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes);
@@ -70,6 +80,7 @@ class Xpbd final : public Integrator<Real> {
   std::vector<Real, AlignedAllocator<Real>> stiffness_;   ///< a row of lanes for each family
   std::vector<Real, AlignedAllocator<Real>> row_;         ///< one row in the particles' own order
   std::vector<Real, AlignedAllocator<Real>> multiplier_;  ///< of damped springs: a row of lanes for each row
+  std::vector<std::array<int, 2>> families_;              ///< rows and columns of those
   std::vector<kernels::XpbdSprings<Real>> springs_;
   std::vector<Real, AlignedAllocator<Real>> plate_;  ///< its stiffnesses in that layout; empty without one
 };

@@ -35,6 +35,7 @@ struct PointId {
 template <class Real>
 class ClothPoint {
  public:
+  ClothPoint() = default;
   ClothPoint(const PointId& id, const Particles<Real>& particles) {
     const Real* inverse_mass = particles.inverse_mass.row(0);
     node_[0] = id.node;
@@ -107,6 +108,12 @@ class ClothPoint {
   const std::array<std::size_t, 4>& nodes() const { return node_; }
   /// The weights of free nodes; 0 for all else.
   const std::array<double, 4>& moves() const { return moves_; }
+
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(count_, node_, weight_, moves_, gain_, mass_);
+  }
 
  private:
   void add_node(std::size_t node, double weight) {

@@ -45,21 +45,39 @@ class Pins {
     }
   }
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(carried_, fixed_, end_of_motion_, begin_, step_);
+  }
+
  private:
   struct Carried {
     std::size_t node;
     Vec3 origin;  ///< where it is in the world at offset 0, m
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(node, origin);
+    }
   };
   struct Path {
     std::vector<Waypoint> points;
     bool loops;
     std::vector<Carried> nodes;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(points, loops, nodes);
+    }
   };
   /// Nodes on an obstacle. Their places as seen from it are taken in the first step and kept from then on.
   struct Fixed {
     Solid obstacle;              ///< as it goes in the step
     std::vector<Carried> nodes;  ///< origin: in the obstacle's own frame
     bool placed = false;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(obstacle, nodes, placed);
+    }
   };
   /// The obstacle at `time`, s, within the step.
   PlacedShape at(const Fixed& fixed, double time) const {

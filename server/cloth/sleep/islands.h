@@ -28,6 +28,12 @@ class BodyRest {
   /// Quiet: none of them got farther than `distance`, m, from where it was when the quiet time began.
   void stepped(const Pose& pose, double reach, double distance);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(began_, quiet_steps_, asleep_);
+  }
+
  private:
   Pose began_;  ///< where the quiet time began
   int quiet_steps_ = 0;

@@ -59,12 +59,23 @@ class Sleep {
   template <class Real>
   void stepped(double speed, double dt, const Particles<Real>& particles, const std::vector<Solid>& solids);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(quiet_steps_, watched_, asleep_, resting_, left_out_, roused_, company_, wind_, box_,
+            neighbours_);
+  }
+
  private:
   /// A solid that lies near, as it lay when the cloth fell asleep.
   struct Neighbour {
     ColliderId id;
     Vec3 low, high;  ///< corners of its bounding box
     bool operator==(const Neighbour&) const = default;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(id, low, high);
+    }
   };
   /// The solids near the box; nothing if one of them moves or might.
   std::optional<std::vector<Neighbour>> neighbours(const std::vector<Solid>& solids) const;

@@ -24,6 +24,12 @@ class NodeArrays {
   }
   void clear() { values_.assign(values_.size(), Real(0)); }
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(margin_, size_, values_);
+  }
+
  private:
   std::size_t margin_ = 0, size_ = 0;
   std::vector<Real, AlignedAllocator<Real>> values_;

@@ -92,7 +92,7 @@ double Cloth<Real>::energy_of_nodes() const {
 
 template <class Real>
 void Cloth<Real>::request_level(int level) {
-  pending_level_ = std::clamp(level, description_.min_level, description_.max_level);
+  pending_level_ = within_levels(level);
 }
 
 template <class Real>
@@ -181,6 +181,7 @@ void Cloth<Real>::tear() {
   take_over_walls();
   make_springs();
   if (plate_) integrator_->restart();  // which has its own copies of the plate
+  integrator_->torn();
   hand_to_guard();
   wake();
 }

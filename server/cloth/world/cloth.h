@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -44,6 +45,11 @@ class Cloth {
 
   /// Asks for a level, clamped to the cloth's own limits; it is reached before the next step.
   void request_level(int level);
+  /// The one asked for, or where it is.
+  int wanted_level() const { return pending_level_.value_or(level_); }
+  int within_levels(int level) const {
+    return std::clamp(level, description_.min_level, description_.max_level);
+  }
   /// Splits or merges, one level at a time, to the requested level (Eqs. 8, 9); true if the level changed.
   /// The next step then settles the cloth first, if springs gained or nodes are in solids (settle.h),
   /// whatever integrator makes it.
@@ -72,11 +78,18 @@ class Cloth {
   void pin(const Vec2& at);
   /// Lets go of the pin that holds (u, v), or of the nearest one; false if there is none.
   bool unpin(const Vec2& at);
-  /// All that its next step follows from, as it is for `other`, a cloth of the same grids and limits of level
-  /// in another simulation: its integrator and what has befallen it, material, pins and grabs. Not the
-  /// effects: gas is left out where nothing shuts it in, and begins to be poured in where only this one has
-  /// it; tears stay whatever made them.
-  void take_state(const Cloth& other);
+  /// All that its next step follows from but its effects (world/state.h). Read of a cloth of the same grids
+  /// and limits of level, it is that cloth: by its integrator, with what has befallen it, material, pins and
+  /// grabs. Gas is left out where nothing shuts it in, and begins to be poured in where only this one has it;
+  /// tears stay whatever made them. What is laid out for the sheet stays where the sheet is the same.
+  template <class Archive>
+  void serialize(Archive& archive);
+  /// The state that was read is of a cloth of other effects, by which it had another energy.
+  bool of_other_effects(const Cloth& other) const {
+    return composed_ != other.composed_ || gravity_ != other.gravity_ || bends_plate_ != other.bends_plate_ ||
+           limits_strain_ != other.limits_strain_ || damping_time_ != other.damping_time_;
+  }
+  void disturb() { disturbed_ = true; }
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
   void set_layers(LayerContacts<Real>* layers) {
     layers_ = layers;
@@ -138,6 +151,7 @@ class Cloth {
   /// Steps from now on may take at most so much work (interrupt.h); one that would is not made: the cloth
   /// stands still as if no way of stepping it helped. WorkLimit::kNone unless set.
   void set_most_work(double most) { most_work_ = most; }
+  double most_work() const { return most_work_; }
   /// That the last step took; 0 if it was left out.
   double work() const { return work_; }
   bool cost_too_much() const { return work_ > most_work_; }
@@ -184,6 +198,14 @@ class Cloth {
   Drive drive(const Forces<Real>& forces, double dt) const;
   /// Where this cloth feels a wind that differs from node to node, that wind; otherwise null.
   const VectorField<float>* node_air(const Air& air, double time, double dt);
+  template <class Archive>
+  void serialize_sheet(Archive& archive);
+  template <class Archive>
+  void serialize_integrator(Archive& archive);
+  template <class Archive>
+  void serialize_contact(Archive& archive);
+  template <class Archive>
+  void serialize_grabs(Archive& archive);
   /// Nothing remembers a step that was taken back.
   void forget_attempt();
   /// As seen from the cloth's place.

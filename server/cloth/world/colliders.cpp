@@ -81,17 +81,6 @@ const Ball* Colliders::find(BallId id) const {
   return found == balls_.end() ? nullptr : &*found;
 }
 
-void Colliders::take_state(const Colliders& other) {
-  std::vector<Obstacle> obstacles = other.obstacles_;
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    obstacles[i].surface = obstacles_[i].surface;
-    obstacles[i].solid.shape = obstacles_[i].solid.shape;
-  }
-  *this = other;
-  obstacles_ = std::move(obstacles);
-  gather_solids();
-}
-
 BallId Colliders::add(const BallDescription& description) {
   Ball ball;
   ball.id = next_id_++;

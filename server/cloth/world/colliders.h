@@ -35,6 +35,11 @@ struct Ball {
   bool loops = false;  ///< the path
   BodyRest rest;       ///< if dynamic
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(id, motion, radius, mass, friction, position, start, velocity, just_put, pushed, sped_up, sharing,
+            spin, path, loops, rest);
+  }
   /// Dynamic, asleep or not.
   bool flies() const { return motion == BallDescription::Motion::dynamic; }
   bool awake() const { return flies() && !rest.asleep(); }
@@ -54,6 +59,12 @@ struct Obstacle {
   std::optional<RigidBody> body;
   BodyRest rest;  ///< if it flies
 
+  /// But for the shape, which does not change (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(solid, pose, mobile, path, loops, target, rest);
+    if (body) archive(*body);
+  }
   /// Puts it there.
   void take(const Pose& place);
   /// Dynamic, asleep or not.
@@ -72,8 +83,6 @@ class Colliders {
   const std::vector<Ball>& balls() const { return balls_; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   const Ball* find(BallId id) const;
-  /// The state of `other`, made of the same descriptions. Shapes stay its own.
-  void take_state(const Colliders& other);
   /// All that the cloths may meet in the step that has begun: the balls in their order, then the obstacles.
   const std::vector<Solid>& solids() const { return solids_; }
 
@@ -141,12 +150,24 @@ class Colliders {
   /// The balls and bodies put back since the last call.
   std::vector<ColliderId> take_stopped() { return std::exchange(stopped_, {}); }
 
+  /// What lasts from step to step (world/state.h); of the same obstacles.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(balls_, targets_, hands_, stopped_, next_id_);
+    for (Obstacle& obstacle : obstacles_) archive(obstacle);
+    if (Archive::is_loading::value) gather_solids();
+  }
+
  private:
   /// Where a ball was told to go. Kept for one step after it got there, to bring it to rest.
   struct Target {
     BallId ball;
     Vec3 position;
     bool reached;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(ball, position, reached);
+    }
   };
   void gather_solids();
   void forget_target(BallId id);

@@ -115,6 +115,10 @@ class Simulation {
   /// to an obstacle that it has not stand still.
   void take_cloths(const Simulation& other);
 
+  /// Air, cloths and layers; colliders; and what is told of the last step (state.h).
+  template <class Archive>
+  void serialize(Archive& archive);
+
   /// One fixed step of description().time_step seconds. Throws Interrupted (interrupt.h) if it is
   /// interrupted.
   void step();
@@ -122,6 +126,8 @@ class Simulation {
   void reset();
 
  private:
+  template <class Archive>
+  void serialize_cloths(Archive& archive);
   /// The step, or the first of so many parts that are left of it (step_parts.h), from `time` on.
   void step_part(double time, double dt, int parts_left);
   /// Takes of the effects what is the whole scene's: gravity for the balls, contact between cloths.

@@ -21,6 +21,10 @@ struct LayerPair {
   Vec3 normal;    ///< from the second feature to the first
   double gap;     ///< to be kept between them, m
   int side = 0;   ///< of the first node's sheet on which the triangle lies, 0 or 1
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(features, near, normal, gap, side);
+  }
 };
 
 /// How layers press on one another and rub.
@@ -127,13 +131,11 @@ class LayerContacts {
   /// Of all pairs that pressed in the last implicit substep; what they are changed to is carried on.
   std::vector<PairForce>& forces() { return forces_; }
 
-  /// Those of the same cloth in another simulation; the nodes and the search stay its own.
-  void take_state(const LayerContacts& other) {
-    const LayerNodes* nodes = nodes_;
-    const FeatureSearch* found = found_;
-    *this = other;
-    nodes_ = nodes;
-    found_ = found;
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(pairs_, constraints_, forces_, stiffness_, strained_, struck_, held_, given_, others_, substep_,
+            place_, near_rest_, own_, search_, substep_net_, rounds_);
   }
 
  private:
@@ -157,6 +159,11 @@ class LayerContacts {
     bool edges = false;  ///< not a node and a triangle
     double inertia = 0;  ///< of others' nodes, N/m; infinite if they are fixed or none
     PairKey key{};
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(coupling.node, coupling.weight, normal, distance, closing, wanted, gap, room, slid, sliding,
+              memory, pressed, lasting, holds, stiffness, friction, grip, acts, edges, inertia, key);
+    }
   };
   /// A node of another cloth, as an explicit step foresees it: nothing but this cloth's layers and what
   /// withstood them before acts on it, and where it lies on a solid neither.
@@ -164,6 +171,10 @@ class LayerContacts {
     std::uint32_t node;
     Vec3 position, velocity;
     double inverse_mass;  ///< 1/kg
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(node, position, velocity, inverse_mass);
+    }
   };
   /// At a substep's end, but for what the layers do in it.
   void move_others(const Substep& substep);

@@ -23,6 +23,10 @@ struct LayerNodes {
   std::vector<char> lies;            ///< went on lying on a solid as the last step ended
   /// Belongs to a triangle that another one passes through: none of its pairs is looked at.
   std::vector<char> tangled;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(first, start, end, velocity, acceleration, support, inverse_mass, lies, tangled);
+  }
 };
 
 /// The points of a pair's nodes.

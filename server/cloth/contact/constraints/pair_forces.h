@@ -17,6 +17,10 @@ struct PairForce {
   double force = 0;             ///< N
   Vec3 grip{0, 0, 0};           ///< on the first feature, N
   bool between_cloths = false;  ///< which are stepped side by side, so that each finds one of its own
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(pair, force, grip, between_cloths);
+  }
 };
 
 /// Makes the forces that two cloths have found for one pair their mean, so that each gives what the other

@@ -13,6 +13,11 @@ struct ContactCounters {
   std::uint64_t nodes_in_contact = 0;  ///< nodes, and points between, found inside a solid or on a way
                                        ///< through, and brought out, or kept there
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(tiles_examined, nodes_tested, nodes_in_contact);
+  }
+
   friend ContactCounters operator+(const ContactCounters& a, const ContactCounters& b) {
     return {a.tiles_examined + b.tiles_examined, a.nodes_tested + b.nodes_tested,
             a.nodes_in_contact + b.nodes_in_contact};
@@ -26,6 +31,11 @@ struct Substep {
   double seconds = 1.0 / 60;
 
   /// Of the whole step.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(from, to, seconds);
+  }
+
   double step_seconds() const { return to > from ? seconds / (to - from) : seconds; }
   static Substep of(int index, int count, double dt) {
     return {static_cast<double>(index) / count, static_cast<double>(index + 1) / count, dt / count};
@@ -37,6 +47,11 @@ struct Touch {
   std::size_t node = 0;  ///< index into the grid's arrays
   ColliderId collider = 0;
   std::uint8_t within = 0;  ///< PointId's
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node, collider, within);
+  }
 
   PointId point() const { return {node, within}; }
   friend bool operator==(const Touch&, const Touch&) = default;
@@ -119,12 +134,10 @@ class Contact {
   /// was kept; after expect() by node, then collider.
   const std::vector<Touch>& touches() const { return touches_; }
   const ContactCounters& counters() const { return counters_; }
-  /// What `other`, of the same grid, found in its steps and counted.
-  void take_state(const Contact& other) {
-    counters_ = other.counters_;
-    touches_ = other.touches_;
-    not_held_ = other.not_held_;
-    kept_aside_ = other.kept_aside_;
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(counters_, touches_, not_held_, kept_aside_);
   }
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
 

@@ -31,6 +31,12 @@ class SubstepNet {
   template <class Real>
   void apply(Particles<Real>& particles, const Substep& substep);
 
+  /// What lasts from step to step (world/state.h).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(own_, pairs_, margin_, found_at_, searches_, found_start_, found_end_);
+  }
+
  private:
   /// A pair that comes near in the substep, as it begins.
   struct Near {

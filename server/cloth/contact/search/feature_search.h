@@ -51,6 +51,13 @@ class FeatureSearch {
   /// Where cloth passes through cloth at `start`.
   std::vector<Crossing> find_crossings(const LayerNodes& nodes);
 
+  /// What lasts from step to step (world/state.h); of the same sheets, cut alike.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(start_, end_, margin_, pairs_, cell_pairs_);
+    for (Sheet& sheet : sheets_) archive(sheet.found, sheet.crowded);
+  }
+
  private:
   struct Sheet {
     Sheet(const Grid& grid, std::uint32_t first_node) : tree(grid), first(first_node) {}

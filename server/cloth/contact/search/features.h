@@ -15,6 +15,10 @@ struct FeaturePair {
   /// LayerNodes.
   std::array<std::uint32_t, 4> node{};
   double distance = 0;  ///< as the step begins, m
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(kind, node, distance);
+  }
 };
 
 using FourPoints = std::array<Vec3, 4>;
@@ -25,6 +29,10 @@ struct Nearness {
   /// barycentric, the second's negative; their sum is 0.
   std::array<double, 4> weight{};
   Vec3 apart{0, 0, 0};  ///< that vector, m
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(weight, apart);
+  }
 };
 
 /// The nearest points of a pair whose nodes are at these points (Ericson, Real-Time Collision Detection,

@@ -27,6 +27,7 @@ class TornLinks {
       : grid_(grid), u_(static_cast<std::size_t>(grid.nodes())), v_(static_cast<std::size_t>(grid.nodes())) {}
 
   const Grid& grid() const { return grid_; }
+  bool operator==(const TornLinks&) const = default;
   void cut(const Link& link) { (link.along_u ? u_ : v_)[at(link.row, link.col)] = 1; }
   bool torn(const Link& link) const { return (link.along_u ? u_ : v_)[at(link.row, link.col)] != 0; }
   /// Of the link from (r, c) to (r + rows, c + cols), one of SpringFamily's six.
@@ -38,6 +39,12 @@ class TornLinks {
   std::vector<FaceRun> whole_faces() const;
   /// All that are, each as row * (columns of cells) + column, ascending.
   std::vector<std::uint32_t> torn_faces() const;
+
+  /// What lasts from step to step (world/state.h); of the same grid.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(u_, v_);
+  }
 
  private:
   std::size_t at(int r, int c) const {

@@ -22,6 +22,12 @@ class Walls {
   /// At the finest level.
   const TornLinks& finest() const { return finest_; }
 
+  /// What lasts from step to step (world/state.h); of the same cells.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(finest_);
+  }
+
  private:
   BaseCells base_;
   int finest_level_;
