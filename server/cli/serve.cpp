@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "cli/log.h"
 #include "cli/serve_options.h"
 #include "cli/settings.h"
+#include "host/data_folder.h"
 
 namespace weft::cli {
 namespace {
@@ -47,8 +49,11 @@ int serve(ServeOptions options) {
   begin_log(options.log, options.quiet);
 
   const ThreadLimit limit = options.threads.limit();
-  host::Host host(options.limits, WEFT_VERSION, options.making);
+  std::optional<host::DataFolder> data;
+  if (!options.folders.data.empty()) data.emplace(options.folders.data);
+  host::Host host(options.limits, WEFT_VERSION, options.making, options.folders);
   if (!load_scenes(options, host)) return kFailed;
+  if (data) host.restore_made();
   if (options.server.web.empty()) options.server.web = find_page();
   options.server.version = WEFT_VERSION;
   net::Server server(host, options.server);

@@ -104,6 +104,11 @@ void ServeOptions::add_to(CLI::App& command) {
       "Listens at an address that others reach although there are no --tokens; with a certificate, "
       "serves others without TLS, too");
   add_limits(command, limits, making);
+  command.add_option(
+      "--data", folders.data,
+      "Folder in which the state of every scene is kept, so that a restart goes on where it was");
+  command.add_option("--record", folders.record,
+                     "Folder in which everything that is done to a scene is recorded, as NAME.weftrec");
   threads.add_to(command);
   command.add_option("--log", log, "Form of the log: text or json, an object a line")
       ->check(CLI::IsMember({"text", "json"}))

@@ -16,6 +16,7 @@ struct ServeOptions {
   std::vector<std::string> overrides;
   protocol::Limits limits;
   host::MakingLimits making;
+  host::LogFolders folders;
   net::ServerOptions server;
   Threads threads;
   std::string log = "text";

@@ -43,8 +43,9 @@ bool first_step_within(const SimulationDescription& description, double most) {
 
 }  // namespace
 
-Host::Host(const protocol::Limits& limits, const std::string& version, const MakingLimits& making)
-    : limits_(limits), making_(making), metrics_(version) {}
+Host::Host(const protocol::Limits& limits, const std::string& version, const MakingLimits& making,
+           const LogFolders& folders)
+    : limits_(limits), making_(making), folders_(folders), metrics_(version) {}
 
 Host::~Host() {
   // All of them first: each then ends while others are waited for.
@@ -61,7 +62,26 @@ bool Host::taken(std::string_view name) const {
 void Host::add(scene::Scene scene) {
   const std::lock_guard lock(mutex_);
   if (taken(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
-  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_), std::nullopt});
+  start(std::move(scene), std::nullopt);
+}
+
+void Host::start(scene::Scene scene, std::optional<long> nodes) {
+  LogPlaces places;
+  places.made = nodes.has_value();
+  if (!folders_.record.empty()) places.record = folders_.record / (scene.name + ".weftrec");
+  if (!folders_.data.empty()) places.data = folders_.data / scene.name;
+  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_, places), nodes});
+}
+
+void Host::restore_made() {
+  const std::lock_guard lock(mutex_);
+  for (const KeptScene& kept : made_scenes_in(folders_.data)) {
+    scene::Result read = scene::parse(kept.document, kept.name);
+    auto* scene = std::get_if<scene::Scene>(&read);
+    if (scene == nullptr || taken(kept.name)) continue;
+    const long nodes = count_nodes(scene->simulation);
+    start(std::move(*scene), nodes);
+  }
 }
 
 std::optional<NotMade> Host::refusal(const std::string& name, long nodes) const {
@@ -109,7 +129,7 @@ std::optional<NotMade> Host::make(const std::string& name, std::string_view docu
   const std::lock_guard lock(mutex_);
   if (auto no = refusal(name, nodes)) return no;  // another client was faster
   ending_.erase(name);
-  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_), nodes});
+  start(std::move(scene), nodes);
   return std::nullopt;
 }
 
@@ -119,6 +139,7 @@ Host::Ending Host::end(std::string_view name) {
                                   [&](const Served& scene) { return scene.runner->name() == name; });
   if (found == scenes_.end()) return Ending::unknown;
   if (!found->nodes) return Ending::own;
+  found->runner->forget();
   found->runner->request_stop();
   std::erase_if(ending_, [](const auto& each) { return each.second.expired(); });
   ending_[found->runner->name()] = found->runner;

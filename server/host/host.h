@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,6 +23,12 @@ struct MakingLimits {
   double work = 5e6;  ///< of its first step, in units of WorkLimit (interrupt.h), 20 ns
 };
 
+/// What is written down of all scenes.
+struct LogFolders {
+  std::filesystem::path record;  ///< a file NAME.weftrec of each scene, from its start on; empty: none
+  std::filesystem::path data;    ///< a folder NAME of each scene, to go on from; empty: none
+};
+
 /// Why a scene was not made, for people and programs.
 struct NotMade {
   enum class Why { bad_name, exists, too_large, full, problems, too_costly } why;
@@ -33,7 +40,7 @@ struct NotMade {
 class Host {
  public:
   explicit Host(const protocol::Limits& limits = {}, const std::string& version = "",
-                const MakingLimits& making = {});
+                const MakingLimits& making = {}, const LogFolders& folders = {});
   /// Interrupts all scenes' steps, and waits for their threads.
   ~Host();
   Host(const Host&) = delete;
@@ -41,6 +48,8 @@ class Host {
 
   /// One of the server's own. Throws std::invalid_argument if there is a scene of that name already.
   void add(scene::Scene scene);
+  /// Those in the folder of data that clients have made.
+  void restore_made();
   /// A client's, from a document as `weft check` reads it. May take a second: its first step is tried.
   std::optional<NotMade> make(const std::string& name, std::string_view document);
   enum class Ending { ended, unknown, own };
@@ -66,9 +75,11 @@ class Host {
   // These need mutex_.
   std::optional<NotMade> refusal(const std::string& name, long nodes) const;
   bool taken(std::string_view name) const;
+  void start(scene::Scene scene, std::optional<long> nodes);
 
   const protocol::Limits limits_;
   const MakingLimits making_;
+  const LogFolders folders_;
   Metrics metrics_;  // before the scenes, which count in it
   mutable std::mutex mutex_;
   std::vector<Served> scenes_;

@@ -21,7 +21,7 @@ constexpr double kFrameRate = 60.0;
 LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
     : scene_(std::move(scene)),
       limits_(limits),
-      simulation_(scene_.simulation),
+      recorded_(scene_.simulation),
       quality_(scene_.quality, scene_.simulation.integrator),
       effects_(scene_.simulation.effects) {
   for (const Cloth<float>& cloth : simulation_.cloths()) {
@@ -43,6 +43,7 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   Seat seat;
   seat.viewer = std::move(viewer);
   seat.visit = visit;
+  seat.number = ++seats_made_;
   seat.distance = scene_.camera_distance;
   look(seat);
   seat.viewer->send(
@@ -57,7 +58,7 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
 void LiveScene::remove_viewer(const Viewer* viewer, std::uint64_t visit) {
   std::erase_if(seats_, [&](const Seat& seat) {
     if (seat.viewer.get() != viewer || seat.visit != visit) return false;
-    for (const GrabId grab : seat.grabs) simulation_.release(grab);  // its hands are gone
+    for (const GrabId grab : seat.grabs) recorded_.run(command::Release{grab});  // its hands are gone
     return true;
   });
 }
@@ -111,21 +112,21 @@ void LiveScene::request_levels() {
   use_chosen_integrator();
   const int cap = quality_.level_cap().value_or(kMaxLevel);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    Cloth<float>& cloth = simulation_.cloths()[i];
+    const Cloth<float>& cloth = simulation_.cloths()[i];
     // One that rests keeps its level, and so all it has.
     const bool rests = cloth.description().relevance.unseen == Relevance::Unseen::sleep && unseen(i);
-    simulation_.set_resting(i, rests);
+    if (cloth.resting() != rests) recorded_.run(command::SetResting{i, rests});
     if (rests) continue;
     const int finest = std::min(wanted[i], cap);
-    cloth.request_level(finest);
+    if (cloth.wanted_level() != cloth.within_levels(finest)) recorded_.run(command::RequestLevel{i, finest});
     // A scene that stands still gets finer at once, so that looking closer shows something. It does not get
     // coarser: what a merge drops would be missing when the viewer comes back.
-    if (!wants_step() && finest > cloth.level() && cloth.apply_pending_level()) state_changed();
+    if (!wants_step() && finest > cloth.level() && recorded_.run(command::ApplyLevel{i})) state_changed();
   }
 }
 
 void LiveScene::use_chosen_integrator() {
-  if (const auto integrator = quality_.take_change()) simulation_.set_integrator(*integrator);
+  if (const auto integrator = quality_.take_change()) recorded_.run(command::SetIntegrator{*integrator});
 }
 
 SimulationDescription LiveScene::studied() const {
@@ -186,7 +187,7 @@ void LiveScene::step() {
   request_levels();
   recompose(std::exchange(recompose_, Recompose::nothing));
   limit_work();
-  simulation_.step();
+  recorded_.step();
   tell_guard_events();
   take_away_costly();
   const auto& cloths = simulation_.cloths();
@@ -203,8 +204,11 @@ void LiveScene::step() {
 
 void LiveScene::recompose(Recompose what) {
   if (what == Recompose::nothing) return;
-  if (what == Recompose::effects) simulation_.set_effects(studied().effects);
-  for (std::size_t i = 0; i < materials_.size(); ++i) simulation_.set_material(i, materials_[i]);
+  if (what == Recompose::effects) recorded_.run(command::SetEffects{studied().effects});
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    if (simulation_.cloths()[i].description().material != materials_[i])
+      recorded_.run(command::SetMaterial{i, materials_[i]});
+  }
 }
 
 void LiveScene::set_slow(bool slow) {
@@ -224,7 +228,7 @@ void LiveScene::tell_guard_events() {
 
 bool LiveScene::remove_ball(BallId id) {
   const json before = composition();
-  const bool found = simulation_.remove_ball(id);
+  const bool found = recorded_.run(command::RemoveBall{id});
   if (composition() != before) study_outdated();
   return found;
 }
@@ -251,7 +255,7 @@ void LiveScene::remove_lost_balls() {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Pose& pose = obstacles[i].pose;
     const bool flies = obstacles[i].flies();
-    if (flies && !range_.contains(pose.position)) simulation_.move_obstacle(i, pose);
+    if (flies && !range_.contains(pose.position)) recorded_.run(command::MoveObstacle{i, pose});
   }
 }
 

@@ -12,9 +12,11 @@
 #include "host/event_queue.h"
 #include "host/frame_encoder.h"
 #include "host/guard_log.h"
+#include "host/recorded_simulation.h"
 #include "host/scene_quality.h"
 #include "host/scene_request.h"
 #include "host/seat.h"
+#include "host/service_state.h"
 #include "protocol/message.h"
 #include "scene/scene.h"
 
@@ -80,6 +82,16 @@ class LiveScene {
   std::vector<int> viewers_by_level() const;
   bool empty() const { return seats_.empty(); }
 
+  /// All that is not its simulation's and lasts when its viewers have gone, written down.
+  std::string save_service() const;
+  /// Goes on from a state and a service that were saved of the same scene: in a new epoch, as what viewers
+  /// saw last may be later. Before any viewer. Throws as load_state.
+  void go_on_from(std::string_view state, std::string_view service);
+  /// What is done to the simulation from now on is told to these.
+  void record(std::vector<std::shared_ptr<record::Recorder>> recorders) {
+    recorded_.record(std::move(recorders));
+  }
+
  private:
   /// The reply's members, or what is wrong with the command.
   using Outcome = std::variant<nlohmann::json, protocol::Error>;
@@ -115,14 +127,6 @@ class LiveScene {
   std::optional<protocol::Error> too_large(double radius) const;
   /// What the viewer put before was taken away not long ago.
   std::optional<protocol::Error> may_not_put(const Seat& seat) const;
-  /// A ball, or an obstacle, that a viewer put somewhere or set in motion.
-  struct PutBody {
-    ColliderId id = 0;
-    const Viewer* viewer = nullptr;  ///< who did, and its visit
-    std::uint64_t visit = 0;
-    std::uint64_t step = 0;  ///< when
-    Pose before;             ///< where an obstacle was before anybody did
-  };
   /// Call it before the body is put where it goes.
   void has_put(ColliderId body, const Seat& seat);
   /// Before a step: what it may take, if viewers' bodies are there.
@@ -175,7 +179,8 @@ class LiveScene {
 
   scene::Scene scene_;
   protocol::Limits limits_;
-  Simulation<float> simulation_;
+  RecordedSimulation recorded_;
+  const Simulation<float>& simulation_ = recorded_.simulation();
   FrameEncoder encoder_;
   SceneQuality quality_;
   GuardLog guard_;
@@ -195,6 +200,7 @@ class LiveScene {
   int frame_stride_ = 1;       ///< steps from one frame to the next
   int unseen_steps_ = 1;       ///< kUnseenTime
   std::uint32_t epoch_ = 1;
+  std::uint64_t seats_made_ = 0;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does
   int waiting_steps_ = 0;           ///< asked for by `step`, not made yet
   bool paused_ = false;

@@ -61,7 +61,7 @@ Metric& SceneMetrics::add(prometheus::Family<Metric>& family, const Labels& labe
   return metric;
 }
 
-SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene)
+SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene, std::string version)
     : seconds_(add(BuildHistogram().Name("weft_step_seconds").Help("Wall time of a step").Register(registry),
                    {{"scene", scene}}, step_seconds())),
       overruns_(add(counters(registry, "weft_step_overruns_total",
@@ -80,11 +80,20 @@ SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene)
       frozen_(add(guard_events(registry), {{"scene", scene}, {"event", "frozen"}})),
       balls_stopped_(add(guard_events(registry), {{"scene", scene}, {"event", "ball_stopped"}})),
       crowded_(add(guard_events(registry), {{"scene", scene}, {"event", "crowded"}})),
+      log_failures_(add(counters(registry, "weft_log_failures_total",
+                                 "Times that the scene's data or recording could not be written on"),
+                        {{"scene", scene}})),
       rate_(add(BuildGauge()
                     .Name("weft_clock_ratio")
                     .Help("Simulated to real time; 0 while nothing is stepped")
                     .Register(registry),
-                {{"scene", scene}})) {
+                {{"scene", scene}})),
+      saved_(add(BuildGauge()
+                     .Name("weft_state_saved_timestamp_seconds")
+                     .Help("When a file with the scene's state was last written; 0: never")
+                     .Register(registry),
+                 {{"scene", scene}})),
+      version_(std::move(version)) {
   auto& viewers = BuildGauge()
                       .Name("weft_scene_viewers")
                       .Help("Viewers by the level of their finest cloth")
@@ -116,6 +125,10 @@ void SceneMetrics::guarded(const Guard& guard) {
 void SceneMetrics::encoded(std::uint64_t records) { records_.Increment(static_cast<double>(records)); }
 
 void SceneMetrics::rate(double rate) { rate_.Set(rate); }
+
+void SceneMetrics::saved() { saved_.SetToCurrentTime(); }
+
+void SceneMetrics::log_failed() { log_failures_.Increment(); }
 
 void SceneMetrics::viewers(const std::vector<int>& by_level) {
   for (std::size_t level = 0; level < viewers_.size(); ++level)
@@ -156,14 +169,15 @@ struct Metrics::Own {
 };
 
 Metrics::Metrics(const std::string& version)
-    : registry_(std::make_unique<Registry>(Registry::InsertBehavior::Merge)),
+    : version_(version),
+      registry_(std::make_unique<Registry>(Registry::InsertBehavior::Merge)),
       own_(std::make_unique<Own>(*registry_)) {
   gauge(*registry_, "weft_build_info", "1, with what was built", {{"version", version}}).Set(1);
 }
 
 Metrics::~Metrics() = default;
 
-SceneMetrics Metrics::of_scene(const std::string& name) { return {*registry_, name}; }
+SceneMetrics Metrics::of_scene(const std::string& name) { return {*registry_, name, version_}; }
 
 void Metrics::refused_command(std::string_view code) {
   own_->refused_commands.Add({{"code", std::string(code)}}).Increment();

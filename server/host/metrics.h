@@ -39,7 +39,7 @@ class SceneMetrics {
     std::uint64_t redone = 0, frozen = 0, balls_stopped = 0, crowded = 0;
   };
 
-  SceneMetrics(prometheus::Registry& registry, const std::string& scene);
+  SceneMetrics(prometheus::Registry& registry, const std::string& scene, std::string version);
   /// Takes the scene's metrics away.
   ~SceneMetrics();
   SceneMetrics(const SceneMetrics&) = delete;
@@ -52,6 +52,12 @@ class SceneMetrics {
   void rate(double rate);
   /// How many viewers see their nearest cloth at each level, from 0.
   void viewers(const std::vector<int>& by_level);
+  /// A file with its state is on the disk.
+  void saved();
+  /// What is written of it could not be.
+  void log_failed();
+  /// Of Weft.
+  const std::string& version() const { return version_; }
 
  private:
   template <class Metric, class... Arguments>
@@ -62,9 +68,11 @@ class SceneMetrics {
   prometheus::Histogram& seconds_;
   prometheus::Counter &overruns_, &energy_lost_, &energy_given_back_, &records_;
   prometheus::Counter &redone_, &frozen_, &balls_stopped_, &crowded_;
-  prometheus::Gauge& rate_;
+  prometheus::Counter& log_failures_;
+  prometheus::Gauge &rate_, &saved_;
   std::array<prometheus::Gauge*, kMaxLevel + 1> viewers_{};
   Guard guard_;  ///< told so far
+  std::string version_;
 };
 
 /// Of the server.
@@ -96,6 +104,7 @@ class Metrics {
  private:
   void look_at_process();
 
+  const std::string version_;
   std::unique_ptr<prometheus::Registry> registry_;
   struct Own;
   std::unique_ptr<Own> own_;

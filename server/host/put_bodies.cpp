@@ -56,8 +56,7 @@ void LiveScene::has_put(ColliderId body, const Seat& seat) {
   if (put.id == 0 && body >= kFirstObstacle)
     put.before = simulation_.colliders().obstacles()[body - kFirstObstacle].pose;
   put.id = body;
-  put.visit = seat.visit;
-  put.viewer = seat.viewer.get();
+  put.viewer = seat.number;
   put.step = simulation_.step_count();
 }
 
@@ -67,19 +66,20 @@ void LiveScene::limit_work() {
   });
   usual_work_.resize(simulation_.cloths().size(), 0);
   for (std::size_t i = 0; i < usual_work_.size(); ++i) {
-    Cloth<float>& cloth = simulation_.cloths()[i];
+    const Cloth<float>& cloth = simulation_.cloths()[i];
     const double usual = usual_work_[i] * scale_of(cloth.level());
-    cloth.set_most_work(put_.empty() ? WorkLimit::kNone : std::max(kLeastWork, kMostTimes * usual));
+    const double most = put_.empty() ? WorkLimit::kNone : std::max(kLeastWork, kMostTimes * usual);
+    if (cloth.most_work() != most) recorded_.run(command::SetMostWork{i, most});
   }
 }
 
 void LiveScene::take_away_costly() {
   std::vector<PutBody> guilty;
   for (std::size_t i = 0; i < usual_work_.size(); ++i) {
-    Cloth<float>& cloth = simulation_.cloths()[i];
+    const Cloth<float>& cloth = simulation_.cloths()[i];
     if (put_.empty() && cloth.work() > 0) usual_work_[i] = cloth.work() / scale_of(cloth.level());
     if (!cloth.cost_too_much()) continue;
-    cloth.try_again();
+    recorded_.run(command::TryAgain{i});
     const BoundingSphere bounds = bounding_sphere(cloth.particles());
     const std::size_t before = guilty.size();
     for (const Solid& solid : simulation_.colliders().solids()) {
@@ -112,11 +112,11 @@ void LiveScene::take_away(const PutBody& body) {
   } else {
     const std::size_t obstacle = body.id - kFirstObstacle;
     what = "obstacle " + std::to_string(obstacle) + " was put back to where it was";
-    simulation_.move_obstacle(obstacle, body.before);
+    recorded_.run(command::MoveObstacle{obstacle, body.before});
   }
   tell_all(protocol::notice_text("too_costly", what + ": a step with it takes more work than it may"));
   for (Seat& seat : seats_) {
-    if (seat.viewer.get() != body.viewer || seat.visit != body.visit) continue;
+    if (seat.number != body.viewer) continue;
     seat.puts_again_at = simulation_.step_count() +
                          static_cast<std::uint64_t>(std::ceil(kPause / scene_.simulation.time_step));
   }

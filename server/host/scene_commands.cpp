@@ -125,7 +125,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindSet& wind, Seat&) {
   if (wind.turbulence) changed.turbulence.intensity = *wind.turbulence;
   if (wind.time_scale) changed.gusts.time_scale = *wind.time_scale;
   if (wind.length_scale) changed.turbulence.length_scale = *wind.length_scale;
-  simulation_.set_wind(changed);
+  recorded_.run(command::SetWind{changed});
   wind_changed();
   return json::object();
 }
@@ -135,7 +135,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::WindZoneSet& set, Seat&)
     return refused("not_found", "/zone",
                    "/zone is " + std::to_string(set.zone) + "; the wind has no such zone");
   }
-  simulation_.set_wind_zone(set.zone, to_vec3(set.velocity));
+  recorded_.run(command::SetWindZone{set.zone, to_vec3(set.velocity)});
   wind_changed();
   return json::object();
 }
@@ -183,7 +183,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   const json before = composition();
-  simulation_.reset();
+  recorded_.run(command::Reset{});
   effects_ = scene_.simulation.effects;
   effects_off_.clear();
   for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i] = scene_.simulation.cloths[i].material;

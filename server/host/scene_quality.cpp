@@ -77,6 +77,11 @@ std::optional<IntegratorDescription> SceneQuality::take_change() {
   return wanted;
 }
 
+void SceneQuality::go_on_with(const scene::Quality& wished) {
+  wish(wished);
+  if (wish_.asks()) in_use_.clear();
+}
+
 void SceneQuality::restarted() { in_use_ = own_label_; }
 
 json SceneQuality::wish_json() const {

@@ -26,6 +26,9 @@ class SceneQuality {
   /// Somebody wants to know what quality costs.
   void ask() { asked_ = true; }
   /// A study is needed and its outcome is not there.
+  const scene::Quality& wished() const { return wish_; }
+  /// The simulation goes on from a state in which this was wished, by whatever integrator it had then.
+  void go_on_with(const scene::Quality& wished);
   bool wants_study() const { return (asked_ || wish_.asks()) && !studied_; }
   void studied(StudyOutcome outcome);
   /// The scene is another: what was studied is forgotten, and studied anew if a wish needs it; who asked

@@ -36,7 +36,8 @@ struct SceneRunner::Task {
   std::variant<Join, Leave, SceneRequest, Call, Studied> what;
 };
 
-SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics)
+SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics,
+                         const LogPlaces& places)
     : name_(scene.name),
       title_(scene.title),
       cloths_(scene.simulation.cloths.size()),
@@ -45,6 +46,7 @@ SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Met
       meshes_(mesh_texts(scene.simulation)),
       metrics_(metrics),
       scene_metrics_(metrics.of_scene(scene.name)),
+      log_(places.empty() ? nullptr : std::make_unique<SceneLog>(scene, places, scene_metrics_)),
       live_(std::make_unique<LiveScene>(std::move(scene), limits)),
       clock_(time_step_),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
@@ -97,20 +99,28 @@ void SceneRunner::run(const std::stop_token& stop) {
   flush_subnormals();
   const Interruptible interruptible(&stop);
   try {
+    if (log_) log_->begin(*live_);
+    frame_ = live_->simulation().step_count();
     while (!stop.stop_requested()) {
       std::vector<Task> tasks = wait_for_work(stop);
       busy_since_ = Clock::now().time_since_epoch().count();
       for (Task& task : tasks) carry_out(task);
       study_if_wanted();
       const bool stepped = step_if_due();
+      // Before anybody is told: what was seen or answered is not forgotten.
+      if (log_) log_->tend(*live_, !tasks.empty());
       // Before the frame goes out: who has seen it must not be told an older step.
       frame_ = live_->simulation().step_count();
       publish_if_due(stepped);
       send_stats_if_due();
       busy_since_ = 0;
     }
+    if (log_) log_->end(*live_);
   } catch (const Interrupted&) {  // the scene ends in the midst of a step
   }
+  live_->record({});
+  if (log_ && forgotten_) log_->forget();
+  log_.reset();  // writes what waits
   study_.reset();
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/metrics.h"
+#include "host/scene_log.h"
 #include "host/scene_request.h"
 #include "host/step_clock.h"
 #include "host/viewer.h"
@@ -33,7 +34,8 @@ class SceneRunner {
   static constexpr std::size_t kMaxWaiting = 1024;
 
   /// Counts in `metrics`, which must outlive it.
-  SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics);
+  SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics,
+              const LogPlaces& places = {});
   /// Interrupts the step in hand, and waits for the thread.
   ~SceneRunner();
   SceneRunner(const SceneRunner&) = delete;
@@ -57,6 +59,8 @@ class SceneRunner {
 
   /// The thread ends soon, within a step. Nothing is stepped or sent from then on.
   void request_stop() { thread_.request_stop(); }
+  /// It has ended for good: its data go with it. Before request_stop().
+  void forget() { forgotten_ = true; }
   /// For how long its thread has been busy without coming to a step boundary; 0 while it waits for the next.
   std::chrono::steady_clock::duration busy_for() const;
 
@@ -101,6 +105,8 @@ class SceneRunner {
   std::atomic<std::uint64_t> frame_{0}, encodes_{0};
   std::atomic<std::chrono::steady_clock::rep> busy_since_{0};  ///< 0: it waits
 
+  std::atomic<bool> forgotten_{false};
+
   std::mutex mutex_;
   std::condition_variable_any work_;
   std::vector<Task> waiting_;  ///< guarded by mutex_
@@ -108,6 +114,7 @@ class SceneRunner {
   // The thread's own.
   Metrics& metrics_;
   SceneMetrics scene_metrics_;
+  std::unique_ptr<SceneLog> log_;  ///< if anything is written down
   const std::unique_ptr<LiveScene> live_;
   StepClock clock_;
   StepClock::TimePoint stats_due_{}, stats_sent_{}, publish_due_{};

@@ -16,6 +16,7 @@ namespace weft::host {
 struct Seat {
   std::shared_ptr<Viewer> viewer;
   std::uint64_t visit = 0;
+  std::uint64_t number = 0;       ///< of the scene's seats, from 1; never again
   bool placed = false;            ///< it has sent its camera
   double distance = 0;            ///< m, to every cloth, unless there is an eye
   std::optional<Vec3> eye;        ///< m

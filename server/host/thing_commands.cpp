@@ -48,7 +48,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat
                                                         : BallDescription::Motion::kinematic;
   ball.mass = add.mass;
   ball.friction = add.friction;
-  const BallId id = simulation_.add_ball(ball);
+  const BallId id = recorded_.run(command::AddBall{ball});
   has_put(id, seat);
   balls_changed("ball.add", takes_effect_, id);
   return json{{"ball", id}};
@@ -56,14 +56,15 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat& seat) {
   if (const auto not_now = may_not_put(seat)) return *not_now;
-  if (!simulation_.move_ball(move.ball, to_vec3(move.position))) return no_such_ball(move.ball);
+  if (!recorded_.run(command::MoveBall{move.ball, to_vec3(move.position)})) return no_such_ball(move.ball);
   has_put(move.ball, seat);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat& seat) {
   if (const auto not_now = may_not_put(seat)) return *not_now;
-  if (!simulation_.throw_ball(thrown.ball, to_vec3(thrown.velocity))) return no_such_ball(thrown.ball);
+  if (!recorded_.run(command::ThrowBall{thrown.ball, to_vec3(thrown.velocity)}))
+    return no_such_ball(thrown.ball);
   has_put(thrown.ball, seat);
   balls_changed("ball.throw", takes_effect_, thrown.ball);
   return json::object();
@@ -85,7 +86,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat
     pose.orientation = Quaternion(q[0], q[1], q[2], q[3]);
   }
   has_put(kFirstObstacle + move.obstacle, seat);
-  simulation_.move_obstacle(move.obstacle, pose);
+  recorded_.run(command::MoveObstacle{move.obstacle, pose});
   return json::object();
 }
 
@@ -95,7 +96,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, S
   if (thrown.obstacle >= obstacles.size()) return no_such_obstacle(thrown.obstacle, obstacles.size());
   if (!obstacles[thrown.obstacle].body) return no_mass(thrown.obstacle);
   has_put(kFirstObstacle + thrown.obstacle, seat);
-  simulation_.throw_obstacle(thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin));
+  recorded_.run(command::ThrowObstacle{thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin)});
   return json::object();
 }
 
@@ -113,7 +114,8 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleGrab& grab, Seat
   if (const auto too_many = too_many_grabs()) return *too_many;
   std::optional<Vec3> hand;
   if (grab.position) hand = to_vec3(*grab.position);
-  const auto id = simulation_.grab_obstacle(grab.obstacle, to_vec3(grab.point), hand, grab.max_force);
+  const auto id =
+      recorded_.run(command::GrabObstacle{grab.obstacle, to_vec3(grab.point), hand, grab.max_force});
   if (!id) return no_mass(grab.obstacle);
   has_put(kFirstObstacle + grab.obstacle, seat);
   seat.grabs.push_back(*id);
@@ -133,7 +135,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothGrab& grab, Seat& s
   if (const auto too_many = too_many_grabs()) return *too_many;
   std::optional<Vec3> hand;
   if (grab.position) hand = to_vec3(*grab.position);
-  const GrabId id = simulation_.grab(grab.cloth, {grab.u, grab.v}, hand, grab.max_force);
+  const GrabId id = recorded_.run(command::GrabCloth{grab.cloth, {grab.u, grab.v}, hand, grab.max_force});
   seat.grabs.push_back(id);
   return json{{"grab", id}};
 }
@@ -142,13 +144,13 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::GrabMove& move, Seat& se
   if (std::find(seat.grabs.begin(), seat.grabs.end(), move.grab) == seat.grabs.end()) {
     return no_such_grab(move.grab);
   }
-  simulation_.move_grab(move.grab, to_vec3(move.position));
+  recorded_.run(command::MoveGrab{move.grab, to_vec3(move.position)});
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::GrabRelease& release, Seat& seat) {
   if (std::erase(seat.grabs, release.grab) == 0) return no_such_grab(release.grab);
-  simulation_.release(release.grab);
+  recorded_.run(command::Release{release.grab});
   return json::object();
 }
 
@@ -157,14 +159,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothPin& pin, Seat&) {
   if (simulation_.cloths()[pin.cloth].description().pins.size() >= kMaxPins) {
     return refused("limit", "", "the cloth has " + std::to_string(kMaxPins) + " pins, the most allowed");
   }
-  simulation_.pin(pin.cloth, {pin.u, pin.v});
+  recorded_.run(command::Pin{pin.cloth, {pin.u, pin.v}});
   pins_changed("cloth.pin", pin.cloth);
   return json::object();
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::ClothUnpin& unpin, Seat&) {
   if (const auto missing = missing_cloth(unpin.cloth)) return *missing;
-  if (!simulation_.unpin(unpin.cloth, {unpin.u, unpin.v})) {
+  if (!recorded_.run(command::Unpin{unpin.cloth, {unpin.u, unpin.v}})) {
     return refused("not_found", "/cloth", "/cloth is " + std::to_string(unpin.cloth) + "; it has no pins");
   }
   pins_changed("cloth.unpin", unpin.cloth);
@@ -178,14 +180,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
   };
   const json before = frictions(), studied_before = composition();
   if (set.ball) {
-    if (!simulation_.set_ball_friction(*set.ball, set.friction)) return no_such_ball(*set.ball);
+    if (!recorded_.run(command::SetBallFriction{*set.ball, set.friction})) return no_such_ball(*set.ball);
   } else if (set.obstacle) {
-    if (!simulation_.set_obstacle_friction(*set.obstacle, set.friction))
+    if (!recorded_.run(command::SetObstacleFriction{*set.obstacle, set.friction}))
       return no_such_obstacle(*set.obstacle, colliders.obstacles().size());
   } else {
-    for (const Ball& ball : colliders.balls()) simulation_.set_ball_friction(ball.id, set.friction);
+    for (const Ball& ball : colliders.balls()) recorded_.run(command::SetBallFriction{ball.id, set.friction});
     for (std::size_t i = 0; i < colliders.obstacles().size(); ++i)
-      simulation_.set_obstacle_friction(i, set.friction);
+      recorded_.run(command::SetObstacleFriction{i, set.friction});
   }
   if (frictions() == before) return json::object();
   if (composition() != studied_before) study_outdated();

@@ -41,12 +41,22 @@ Result read_text(std::string_view text, std::string_view name, const SceneFolder
     if (auto problem = apply_override(override_text, document.tree))
       document.problems.push_back(std::move(*problem));
   }
-  return read_scene(document.tree, name, folder, std::move(document.problems), std::move(document.overflows));
+  Result result =
+      read_scene(document.tree, name, folder, std::move(document.problems), std::move(document.overflows));
+  if (auto* scene = std::get_if<Scene>(&result)) {
+    scene->document = document.tree.dump();
+    if (folder) scene->folder = std::filesystem::absolute(*folder).string();
+  }
+  return result;
 }
 
 }  // namespace
 
 Result parse(std::string_view text, std::string_view name) { return read_text(text, name, {}, {}); }
+
+Result parse_beside(std::string_view text, std::string_view name, const std::string& folder) {
+  return read_text(text, name, folder.empty() ? SceneFolder() : SceneFolder(folder), {});
+}
 
 Result from_json(const nlohmann::json& document, std::string_view name) {
   return read_scene(document, name, {}, {}, {});

@@ -34,7 +34,9 @@ struct Scene {
   Vec3 camera_eye{0.0, 0.0, 5.0};  ///< where a page puts its camera at first, m
   Vec3 camera_target{0.0, 0.0, 0.0};
   SimulationDescription simulation;
-  Quality quality;  ///< asks for nothing: stepped as the simulation says
+  std::string document;  ///< the scene as JSON text, with overrides: what it was read from
+  std::string folder;    ///< that files named in it are beside; empty: it may name none
+  Quality quality;       ///< asks for nothing: stepped as the simulation says
 };
 
 /// The scene, or everything that is wrong with it (all problems at once).
@@ -43,6 +45,9 @@ using Result = std::variant<Scene, std::vector<Problem>>;
 /// Reads a scene from JSON text. Never throws. Duplicate keys, unknown keys, wrong types, out-of-range and
 /// non-finite values are problems; text that is not JSON is one problem that gives line and column.
 Result parse(std::string_view text, std::string_view name);
+
+/// As parse, of a text whose files are in `folder`, if it may name any.
+Result parse_beside(std::string_view text, std::string_view name, const std::string& folder);
 
 /// As parse, of a document already read; `--set` edits one before this.
 Result from_json(const nlohmann::json& document, std::string_view name);

@@ -14,6 +14,7 @@
 """
 import array
 import asyncio
+import contextlib
 import dataclasses
 import json
 import math
@@ -403,7 +404,8 @@ class Client:
         """Ends the connection; open requests fail with code `closed`, iterations end."""
         self._closing = True
         if self._socket is not None:
-            await self._socket.close()
+            with contextlib.suppress(websockets.ConnectionClosed):  # the server has gone already
+                await self._socket.close()
         if self._reader is not None:
             await self._reader
 

@@ -16,9 +16,10 @@ ALLOWED = {
     "protocol": {"protocol"},
     "scene": {"scene", "cloth"},
     "study": {"study", "scene", "cloth"},
-    "host": {"host", "study", "scene", "cloth", "protocol"},
+    "record": {"record", "scene", "cloth"},
+    "host": {"host", "record", "study", "scene", "cloth", "protocol"},
     "net": {"net", "host", "study", "scene", "cloth", "protocol"},
-    "cli": {"cli", "net", "host", "study", "scene", "cloth", "protocol"},
+    "cli": {"cli", "net", "host", "record", "study", "scene", "cloth", "protocol"},
 }
 
 # Headers that would bring files, sockets, JSON or logging into the simulation; sockets and logging into the formats.

@@ -1,0 +1,83 @@
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/threads.h"
+#include "cloth/world/state_hash.h"
+#include "record/replay.h"
+
+namespace weft::cli {
+namespace {
+
+struct ReplayOptions {
+  std::string file;
+  bool validate = false;
+  std::optional<double> seek;
+  Threads threads;
+};
+
+void print_summary(const ReplayOptions& options, const record::Recording& recording,
+                   const scene::Scene& scene) {
+  std::size_t states = 0;
+  for (const record::Event& event : recording.events())
+    states += std::holds_alternative<record::StateThen>(event) ? 1 : 0;
+  std::printf("%s: scene %s, %" PRIu64 " steps (%.3f s), %zu commands, %zu states, by Weft %s\n",
+              options.file.c_str(), scene.name.c_str(), recording.steps(),
+              static_cast<double>(recording.steps()) * scene.simulation.time_step, recording.commands(),
+              states, recording.head().value("weft", "?").c_str());
+  if (!recording.damage().empty()) std::printf("  %s: read up to there\n", recording.damage().c_str());
+}
+
+void print_place(const record::Replay& replay) {
+  std::printf("  step %" PRIu64 ", simulated %.3f s: state %016" PRIx64 "\n", replay.steps(),
+              replay.simulation().time(), state_hash(replay.simulation()));
+}
+
+int replay(const ReplayOptions& options) {
+  const ThreadLimit limit = options.threads.limit();
+  const record::Recording recording = record::Recording::of_file(options.file);
+  const scene::Scene scene = recording.scene();
+  print_summary(options, recording, scene);
+  if (!options.validate && !options.seek) return recording.damage().empty() ? 0 : kFailed;
+  record::Replay replay(recording);
+  if (options.seek) {
+    replay.seek(static_cast<std::uint64_t>(std::llround(*options.seek / scene.simulation.time_step)));
+    print_place(replay);
+  }
+  if (!options.validate) return 0;
+  while (!replay.divergence() && replay.step()) {
+  }
+  if (const auto& other = replay.divergence()) {
+    std::printf("  after %" PRIu64 " steps the state is another: %016" PRIx64 ", recorded was %016" PRIx64
+                "\n",
+                other->step, other->found, other->recorded);
+    return kBadState;
+  }
+  print_place(replay);
+  std::printf("  %zu hashes, all as recorded\n", replay.hashes());
+  return recording.damage().empty() ? 0 : kFailed;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "Tells what a recording (serve --record) has, and does it again. Ends with 1 if it is damaged, "
+      "3 if a state is another");
+  command->add_option("FILE", options->file, "Recording")->required()->check(CLI::ExistingFile);
+  command->add_flag("--validate", options->validate, "Makes every step again and compares all hashes");
+  command
+      ->add_option("--seek", options->seek, "Goes to this time since the recording began, s; tells its hash")
+      ->check(CLI::NonNegativeNumber);
+  options->threads.add_to(*command);
+  command->callback([options, &exit_code] { exit_code = replay(*options); });
+}
+
+}  // namespace weft::cli
