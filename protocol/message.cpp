@@ -72,11 +72,13 @@ std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t fr
   return dump(message);
 }
 
-std::string welcome_text(std::string_view server_version, Role role, const Limits& limits) {
+std::string welcome_text(std::string_view server_version, std::string_view instance, Role role,
+                         const Limits& limits) {
   return dump({{"op", "welcome"},
                {"protocol", kSubprotocol},
-               {"minor", 14},
+               {"minor", 15},
                {"server", "weft " + std::string(server_version)},
+               {"instance", instance},
                {"role", name_of(role)},
                {"caps", kCapabilities},
                {"limits",

@@ -53,7 +53,9 @@ std::string error_text(const Error& error);
 std::string pong_text(std::optional<std::int64_t> re, double t, std::uint64_t frame, double time,
                       std::uint32_t server_ms);
 /// `server_version` alone, as in "0.1.0".
-std::string welcome_text(std::string_view server_version, Role role, const Limits& limits);
+/// `instance` names this run of the server.
+std::string welcome_text(std::string_view server_version, std::string_view instance, Role role,
+                         const Limits& limits);
 std::string event_text(std::string_view kind, std::uint64_t frame, const nlohmann::json& what);
 std::string notice_text(std::string_view code, std::string_view message);
 

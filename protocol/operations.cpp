@@ -13,6 +13,7 @@ const std::vector<Operation>& operations() {
        field<&Hello::window>("window", Presence::optional, {1, 8})}, nullptr},
       {"scene.list", Role::view, SceneList{}, {}, nullptr},
       {"scene.join", Role::view, SceneJoin{}, {field<&SceneJoin::scene>("scene", Presence::required, {1, 64})}, nullptr},
+      {"seat.resume", Role::view, SeatResume{}, {field<&SeatResume::seat>("seat", Presence::required, {1, 64})}, nullptr},
       {"camera", Role::view, Camera{}, {field<&Camera::distance>("distance", Presence::optional, {0, 1000000, "m"}),
        field<&Camera::eye>("eye", Presence::optional, {-1000000, 1000000, "m"}),
        field<&Camera::target>("target", Presence::optional, {-1000000, 1000000, "m"}),

@@ -23,6 +23,10 @@ struct SceneList {};
 struct SceneJoin {
   std::string scene{};  ///< its name
 };
+/// `seat.resume`: Takes over what this client held before its connection broke.
+struct SeatResume {
+  std::string seat{};  ///< from `scene`
+};
 /// `camera`: Tells where this viewer's camera is.
 struct Camera {
   std::optional<double> distance = {};  ///< m, from the cloths
@@ -166,6 +170,7 @@ using Command = std::variant<
     Hello,
     SceneList,
     SceneJoin,
+    SeatResume,
     Camera,
     Ack,
     Ping,
@@ -195,6 +200,7 @@ using Command = std::variant<
     Step>;
 /// Those that are a scene's to carry out; the others concern the connection.
 using SceneCommand = std::variant<
+    SeatResume,
     Camera,
     BallAdd,
     BallMove,

@@ -17,13 +17,13 @@ Connection::Connection(Host& host, std::shared_ptr<SceneRunner> scene, protocol:
       role_(role),
       rate_(host.limits().messages_per_second, std::chrono::steady_clock::now()),
       excess_(host.limits().messages_per_second / 2, std::chrono::steady_clock::now()) {
-  send(protocol::welcome_text(server_version, role, host.limits()));
+  send(protocol::welcome_text(server_version, host.instance(), role, host.limits()));
   visit_ = viewer_->enter();
   scene_->join(viewer_, visit_);
 }
 
 Connection::~Connection() {
-  scene_->leave(viewer_, visit_);
+  scene_->leave(viewer_, visit_, !parted_);
   scene_->give_back();
 }
 

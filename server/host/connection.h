@@ -26,6 +26,8 @@ class Connection {
   Viewer& viewer() { return *viewer_; }
   const std::shared_ptr<Viewer>& shared_viewer() const { return viewer_; }
   const SceneRunner& scene() const { return *scene_; }
+  /// The connection ended as its client wished: it will not come back.
+  void part() { parted_ = true; }
 
   /// What is to be done after a message.
   enum class Pace {
@@ -57,6 +59,7 @@ class Connection {
   const protocol::Role role_;
   std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
   std::uint64_t visit_ = 0;
+  bool parted_ = false;
   RateLimiter rate_;    ///< of messages
   RateLimiter excess_;  ///< of those dropped: half as many may be
 };

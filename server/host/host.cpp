@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "cloth/world/simulation.h"
+#include "host/random_name.h"
 
 namespace weft::host {
 namespace {
 
 using Why = NotMade::Why;
+constexpr std::size_t kInstanceDigits = 16;
 
 /// As a file's name without its extension, and a part of an URL.
 bool is_scene_name(std::string_view name) {
@@ -45,7 +47,11 @@ bool first_step_within(const SimulationDescription& description, double most) {
 
 Host::Host(const protocol::Limits& limits, const std::string& version, const MakingLimits& making,
            const LogFolders& folders)
-    : limits_(limits), making_(making), folders_(folders), metrics_(version) {}
+    : limits_(limits),
+      making_(making),
+      instance_(random_name(kInstanceDigits)),
+      folders_(folders),
+      metrics_(version) {}
 
 Host::~Host() {
   // All of them first: each then ends while others are waited for.

@@ -62,6 +62,8 @@ class Host {
   std::vector<std::shared_ptr<SceneRunner>> scenes() const;
   const protocol::Limits& limits() const { return limits_; }
   const MakingLimits& making() const { return making_; }
+  /// Names this run of the server.
+  const std::string& instance() const { return instance_; }
   Metrics& metrics() { return metrics_; }
 
   /// `[{"name","title","viewers","cloths"}]`, in the order they were added.
@@ -79,6 +81,7 @@ class Host {
 
   const protocol::Limits limits_;
   const MakingLimits making_;
+  const std::string instance_;
   const LogFolders folders_;
   Metrics metrics_;  // before the scenes, which count in it
   mutable std::mutex mutex_;

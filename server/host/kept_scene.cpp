@@ -7,15 +7,26 @@
 namespace weft::host {
 
 std::string LiveScene::save_service() const {
-  const ServiceState state{epoch_,       paused_,           waiting_steps_, effects_,
-                           effects_off_, quality_.wished(), put_,           usual_work_};
+  ServiceState state;
+  state.epoch = epoch_;
+  state.paused = paused_;
+  state.waiting_steps = waiting_steps_;
+  state.effects = effects_;
+  state.effects_off = effects_off_;
+  state.wish = quality_.wished();
+  state.put = put_;
+  state.usual_work = usual_work_;
+  state.held.assign(lost_.begin(), lost_.end());
+  for (const Seat& seat : seats_) {
+    if (!seat.grabs.empty()) state.held.push_back({seat.token, seat.grabs});
+  }
   std::string bytes;
   StateWriter writer(bytes);
   writer(state);
   return bytes;
 }
 
-void LiveScene::go_on_from(std::string_view state, std::string_view service) {
+void LiveScene::go_on_from(std::string_view state, std::string_view service, TimePoint until) {
   ServiceState then;
   StateReader reader(service);
   reader(then);
@@ -28,6 +39,7 @@ void LiveScene::go_on_from(std::string_view state, std::string_view service) {
   put_ = std::move(then.put);
   for (PutBody& body : put_) body.viewer = 0;  // nobody who is here
   usual_work_ = std::move(then.usual_work);
+  for (HeldSeat& seat : then.held) lost_.push_back({std::move(seat), until});
   std::transform(simulation_.cloths().begin(), simulation_.cloths().end(), materials_.begin(),
                  [](const Cloth<float>& cloth) { return cloth.description().material; });
   quality_.go_on_with(then.wish);

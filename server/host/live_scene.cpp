@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cloth/sheet/diagnostics.h"
+#include "host/random_name.h"
 #include "host/scene_messages.h"
 #include "host/tuning.h"
 
@@ -15,6 +16,8 @@ using nlohmann::json;
 
 /// Frames a second that are sent at most; scenes with shorter steps show every nth.
 constexpr double kFrameRate = 60.0;
+/// Of a seat: 128 bits.
+constexpr std::size_t kTokenDigits = 32;
 
 }  // namespace
 
@@ -44,6 +47,7 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.viewer = std::move(viewer);
   seat.visit = visit;
   seat.number = ++seats_made_;
+  seat.token = random_name(kTokenDigits);
   seat.distance = scene_.camera_distance;
   look(seat);
   seat.viewer->send(
@@ -59,6 +63,22 @@ void LiveScene::remove_viewer(const Viewer* viewer, std::uint64_t visit) {
   std::erase_if(seats_, [&](const Seat& seat) {
     if (seat.viewer.get() != viewer || seat.visit != visit) return false;
     for (const GrabId grab : seat.grabs) recorded_.run(command::Release{grab});  // its hands are gone
+    return true;
+  });
+}
+
+void LiveScene::lose_viewer(const Viewer* viewer, std::uint64_t visit, TimePoint until) {
+  for (Seat& seat : seats_) {
+    if (seat.viewer.get() == viewer && seat.visit == visit && !seat.grabs.empty())
+      lost_.push_back({{seat.token, std::exchange(seat.grabs, {})}, until});
+  }
+  remove_viewer(viewer, visit);
+}
+
+void LiveScene::release_lost(TimePoint now) {
+  std::erase_if(lost_, [&](const LostSeat& seat) {
+    if (now < seat.until) return false;
+    for (const GrabId grab : seat.grabs) recorded_.run(command::Release{grab});
     return true;
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// A scene being shown: its simulation, its viewers and what they command. One thread uses it
 /// (SceneRunner's); no clock and no lock in here.
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,12 @@ class LiveScene {
   /// A viewer came, as `visit` (Viewer::enter): it is sent `scene`, and a frame at the next publish().
   void add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
   void remove_viewer(const Viewer* viewer, std::uint64_t visit);
+  using TimePoint = std::chrono::steady_clock::time_point;
+  /// The same of one whose connection broke: its hands hold on until then, for whoever comes back with its
+  /// seat.
+  void lose_viewer(const Viewer* viewer, std::uint64_t visit, TimePoint until);
+  /// Hands let go of which nobody came back in time.
+  void release_lost(TimePoint now);
   /// Carries out one of its commands and answers it; the code of the error that was the answer, if one was.
   /// The scene is between two steps.
   std::optional<std::string> apply(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
@@ -85,8 +92,9 @@ class LiveScene {
   /// All that is not its simulation's and lasts when its viewers have gone, written down.
   std::string save_service() const;
   /// Goes on from a state and a service that were saved of the same scene: in a new epoch, as what viewers
-  /// saw last may be later. Before any viewer. Throws as load_state.
-  void go_on_from(std::string_view state, std::string_view service);
+  /// saw last may be later. Before any viewer; those who held something are waited for until then. Throws as
+  /// load_state.
+  void go_on_from(std::string_view state, std::string_view service, TimePoint until);
   /// What is done to the simulation from now on is told to these.
   void record(std::vector<std::shared_ptr<record::Recorder>> recorders) {
     recorded_.record(std::move(recorders));
@@ -97,6 +105,7 @@ class LiveScene {
   using Outcome = std::variant<nlohmann::json, protocol::Error>;
 
   // What each command does.
+  Outcome carry_out(const protocol::SeatResume& resume, Seat& seat);
   Outcome carry_out(const protocol::Camera& camera, Seat& seat);
   Outcome carry_out(const protocol::BallAdd& add, Seat& seat);
   Outcome carry_out(const protocol::BallMove& move, Seat& seat);
@@ -187,6 +196,10 @@ class LiveScene {
   std::vector<std::string> guard_texts_;
   EventQueue events_;
   std::vector<Seat> seats_;
+  struct LostSeat : HeldSeat {
+    TimePoint until;
+  };
+  std::vector<LostSeat> lost_;
   std::vector<PutBody> put_;
   std::vector<double> usual_work_;            ///< by cloth: of its last step without those, as if at level 0
   std::vector<int> finest_sendable_;          ///< by cloth

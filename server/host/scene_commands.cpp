@@ -43,6 +43,20 @@ std::optional<std::string> LiveScene::apply(const std::shared_ptr<Viewer>& viewe
   return error != nullptr ? std::optional(error->code) : std::nullopt;
 }
 
+LiveScene::Outcome LiveScene::carry_out(const protocol::SeatResume& resume, Seat& seat) {
+  takes_effect_ = simulation_.step_count();
+  const auto is_it = [&](const auto& other) { return other.token == resume.seat; };
+  // Its old connection may not have been missed yet.
+  const auto here = std::find_if(seats_.begin(), seats_.end(), is_it);
+  const auto lost = std::find_if(lost_.begin(), lost_.end(), is_it);
+  if (here == seats_.end() && lost == lost_.end())
+    return refused("not_found", "/seat", "nobody is waited for who had this seat, or it is too late");
+  std::vector<GrabId> grabs = std::exchange(here != seats_.end() ? here->grabs : lost->grabs, {});
+  if (lost != lost_.end()) lost_.erase(lost);
+  seat.grabs.insert(seat.grabs.end(), grabs.begin(), grabs.end());
+  return json{{"grabs", seat.grabs}};
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& seat) {
   seat.placed = true;
   seat.eye.reset();
@@ -193,6 +207,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
     seat.grabs.clear();
     seat.puts_again_at = 0;
   }
+  lost_.clear();
   put_.clear();
   quality_.restarted();
   guard_ = {};

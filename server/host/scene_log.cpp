@@ -175,7 +175,8 @@ bool SceneLog::go_on_from(LiveScene& live, const fs::path& file) {
     if (replay.divergence())
       throw std::invalid_argument("after " + std::to_string(replay.divergence()->step) +
                                   " steps it does not lead to the state that it tells");
-    live.go_on_from(save_state(replay.simulation()), replay.service());
+    live.go_on_from(save_state(replay.simulation()), replay.service(),
+                    std::chrono::steady_clock::now() + kSeatKept);
     spdlog::info("scene {}: goes on at {:.3f} s, epoch {}, from {}{}", scene_.name, live.simulation().time(),
                  live.epoch(), file.string(),
                  recording.damage().empty() ? "" : ", of which " + recording.damage());

@@ -15,6 +15,9 @@ namespace weft::host {
 
 class LiveScene;
 
+/// For so long a viewer whose connection broke, or who was there before a restart, is waited for.
+inline constexpr auto kSeatKept = std::chrono::seconds(5);
+
 /// Where what happens in a scene is written down.
 struct LogPlaces {
   std::filesystem::path record;  ///< a file that has all from when it is begun on; empty: none

@@ -173,6 +173,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
       {"op", "scene"},
       {"name", scene.name},
       {"title", scene.title},
+      {"seat", seat.token},
       {"f", simulation.step_count()},
       {"epoch", state.epoch},
       {"time", simulation.time()},

@@ -22,7 +22,9 @@ constexpr auto kStatsPeriod = std::chrono::milliseconds(500);
 constexpr auto kPublishPeriod = std::chrono::milliseconds(16);
 
 struct Join {};
-struct Leave {};
+struct Leave {
+  bool lost;
+};
 struct Studied {
   std::uint64_t number;  ///< LiveScene::study_number()
   StudyOutcome outcome;
@@ -70,8 +72,8 @@ void SceneRunner::join(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
   post({std::move(viewer), visit, Join{}});
 }
 
-void SceneRunner::leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit) {
-  post({std::move(viewer), visit, Leave{}});
+void SceneRunner::leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit, bool lost) {
+  post({std::move(viewer), visit, Leave{lost}});
 }
 
 bool SceneRunner::submit(const std::shared_ptr<Viewer>& viewer, std::uint64_t visit,
@@ -105,6 +107,7 @@ void SceneRunner::run(const std::stop_token& stop) {
       std::vector<Task> tasks = wait_for_work(stop);
       busy_since_ = Clock::now().time_since_epoch().count();
       for (Task& task : tasks) carry_out(task);
+      live_->release_lost(Clock::now());
       study_if_wanted();
       const bool stepped = step_if_due();
       // Before anybody is told: what was seen or answered is not forgotten.
@@ -153,7 +156,11 @@ void SceneRunner::carry_out(Task& task) {
     if (live_->empty()) stats_due_ = Clock::now();
     live_->add_viewer(task.viewer, task.visit);
   } else {
-    live_->remove_viewer(task.viewer.get(), task.visit);
+    if (std::get<Leave>(task.what).lost) {
+      live_->lose_viewer(task.viewer.get(), task.visit, Clock::now() + kSeatKept);
+    } else {
+      live_->remove_viewer(task.viewer.get(), task.visit);
+    }
     scene_metrics_.viewers(live_->viewers_by_level());
     if (live_->empty()) scene_metrics_.rate(0);
   }

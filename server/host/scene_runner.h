@@ -70,8 +70,9 @@ class SceneRunner {
   void give_back() { --viewers_; }
   /// The viewer, for whom there is a place, comes in as `visit`.
   void join(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
-  /// It leaves. Commands it gave before are still carried out.
-  void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
+  /// It leaves. Commands it gave before are still carried out. `lost`: its connection broke, it may come
+  /// back.
+  void leave(std::shared_ptr<Viewer> viewer, std::uint64_t visit, bool lost = false);
   /// Called on the scene's thread, when what was submitted before is carried out and answered.
   using Call = std::function<void()>;
   /// One command, or a call. False if too many wait; it is forgotten.

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cloth/core/grab_id.h"
@@ -26,7 +27,8 @@ struct Seat {
       policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
   std::vector<int> levels;  ///< what it is sent
   std::vector<int>
-      steps_unseen;  ///< in a row, by cloth, in which it did not see it; 0 where that makes no difference
+      steps_unseen;   ///< in a row, by cloth, in which it did not see it; 0 where that makes no difference
+  std::string token;  ///< by which it is resumed
   std::vector<GrabId> grabs;        ///< what it holds
   std::uint64_t puts_again_at = 0;  ///< step from which on it may put balls and obstacles somewhere
   bool wants_curve = false;         ///< asked for the cost, and is told when it is known

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloth/core/description.h"
+#include "cloth/core/grab_id.h"
 #include "cloth/shapes/solid.h"
 #include "scene/scene.h"
 
@@ -22,6 +23,16 @@ struct PutBody {
   }
 };
 
+/// What a viewer holds who has gone and may come back.
+struct HeldSeat {
+  std::string token;  ///< Seat's
+  std::vector<GrabId> grabs;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(token, grabs);
+  }
+};
+
 /// What a scene being served has beside its simulation and its viewers, written down with its state.
 struct ServiceState {
   std::uint32_t epoch = 1;
@@ -32,9 +43,11 @@ struct ServiceState {
   scene::Quality wish;
   std::vector<PutBody> put;
   std::vector<double> usual_work;
+  std::vector<HeldSeat> held;  ///< by all who hold anything
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(epoch, paused, waiting_steps, effects, effects_off, wish.max_error, wish.max_ms, put, usual_work);
+    archive(epoch, paused, waiting_steps, effects, effects_off, wish.max_error, wish.max_ms, put, usual_work,
+            held);
   }
 };
 

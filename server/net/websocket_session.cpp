@@ -158,6 +158,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     if (error) {
       if (const auto more = context_.arrivals.admit(std::chrono::steady_clock::now()))
         spdlog::info("viewer {}: gone ({}){}", peer_, why_gone(error), *more);
+      if (ended_for_good(error)) connection_.part();
       // A write may still wait for a peer that is no longer there.
       beast::get_lowest_layer(ws_).close();
       close_deadline_.cancel();
@@ -179,6 +180,12 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     // A flood is taken in no faster than what is allowed: the rest waits at its sender.
     read_pause_.expires_after(std::chrono::milliseconds(1000 / context_.host.limits().messages_per_second));
     read_pause_.async_wait([self = shared_from_this()](error_code) { self->read(); });
+  }
+
+  /// By the client's own close, or by this server's for what the client did: not where either goes away.
+  bool ended_for_good(error_code error) const {
+    if (closing_) return closing_->code != websocket::close_code::going_away;
+    return error == websocket::error::closed && ws_.reason().code == websocket::close_code::normal;
   }
 
   std::string why_gone(error_code error) const {

@@ -356,6 +356,26 @@ test('with reconnect it comes back to its scene, says hello and tells its camera
   assert.equal((await client.nextFrame()).stamp.f, 11);
 });
 
+test('with reconnect it takes over what it held, and lets go of what it let go of meanwhile', async () => {
+  const grabs = [7, 8, 9];
+  const seat = 'a'.repeat(32);
+  const server = await serve({ greet: false, afterConnection: (socket) => {
+    for (const message of [welcome, { ...scene, seat }]) socket.send(JSON.stringify(message));
+  }, answer: ({ op }) => (op === 'cloth.grab' ? { grab: grabs.shift() } : op === 'seat.resume' ? { grabs: [7, 8] } : {}) });
+  let opened;
+  const client = await join(server, { reconnect: true, onstate: (state) => state === 'open' && opened?.() });
+  for (const u of [0.1, 0.2, 0.3]) await client.grab(0, u, 0.5);
+  server.received.length = 0;
+  const again = new Promise((resolve) => { opened = resolve; });
+  server.sockets[0].terminate();
+  await assert.rejects(client.release(8), { code: 'closed' });
+  await again;
+  await client.ping();
+  assert.deepEqual(server.received.map(({ id, t, ...message }) => message), [
+    { op: 'hello', caps: ['flow.ack'], window: 2 }, { op: 'seat.resume', seat }, { op: 'grab.release', grab: 8 },
+    { op: 'ping' }]);
+});
+
 test('with reconnect a server that is not there yet is waited for', async () => {
   const first = await serve();
   await first.stop();

@@ -148,7 +148,7 @@ TEST(Message, ServerTextsAreTheContracts) {
   EXPECT_EQ(event_text("wind", 121, {{"wind", {{"speed", 2}}}}),
             R"({"op":"event","kind":"wind","f":121,"wind":{"speed":2}})");
   EXPECT_EQ(notice_text("slow", "behind"), R"({"op":"notice","code":"slow","message":"behind"})");
-  EXPECT_EQ(json::parse(welcome_text("0.1.0", Role::control, Limits{})),
+  EXPECT_EQ(json::parse(welcome_text("0.1.0", "5f3c2a7b9e104d68", Role::control, Limits{})),
             load("protocol/vectors/server_messages.json")["good"][0]);
 }
 

@@ -301,6 +301,16 @@ export class Commands {
   }
 
   /**
+   * Takes over what this client held before its connection broke. `seat` is that of the `scene` message before.
+   * Whoever left without closing the WebSocket is waited for 5 s, as well when the server itself was restarted (with
+   * `--data`); until then its hands hold on. `ok` has the ids of `grabs` that are this viewer's now.
+   * @param {string} seat from `scene`
+   */
+  resumeSeat(seat) {
+    return this.send('seat.resume', { seat });
+  }
+
+  /**
    * Tells where this viewer's camera is. Decides the level of each cloth (Eq. 7) for this viewer and, with `target`
    * and `half_angle`, what it has in sight: all within that angle of the line from the eye to the target. Without
    * them it sees in every direction.
@@ -584,6 +594,7 @@ export class WeftClient extends Commands {
   #newest = null;
   #delivering = false;
   #camera = null;
+  #held = new Set();   // ids of grabs that this client has not let go of
   #quickestPing = Infinity;
   #clockOffset = NaN;  // of the server's clock to this one's, ms
   /** Ends a wait between attempts early. @type {(() => void)|null} */
@@ -636,9 +647,9 @@ export class WeftClient extends Commands {
         this.#requests.delete(id);
         reject(new WeftError('timeout', `no answer to ${op} within ${this.#options.timeout} ms`));
       }, this.#options.timeout);
-      this.#requests.set(id, { resolve, reject, timer });
+      this.#requests.set(id, { resolve: (ok) => resolve(this.#noted(ok)), reject, timer });
       this.#socket.send(text);
-    });
+    }).finally(() => op === 'grab.release' && this.#held.delete(members.grab));
   }
 
   /** Sends a message that only an error would answer (to `onmessage`): for streams such as a dragged ball. Dropped while not connected. */
@@ -715,6 +726,7 @@ export class WeftClient extends Commands {
     const socket = new Socket(this.#url, token ? [SUBPROTOCOL, `weft.token.${token}`] : SUBPROTOCOL);
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
+    const before = this.scene;
     this.welcome = this.scene = this.#newest = null;
     this.#acks = false;
     this.#quickestPing = Infinity;
@@ -743,6 +755,7 @@ export class WeftClient extends Commands {
       if (frames || client) await this.send('hello', { client, caps: frames ? ['flow.ack'] : [], window: frames || undefined });
       // A camera refused then is refused now; the connection is good all the same.
       if (this.#camera) await super.camera(this.#camera).catch(() => {});
+      if (before?.seat && before.name === this.scene.name) await this.#resume(before.seat);
       if (socket.readyState !== 1) throw new WeftError('closed', 'closed by the server');
     } catch (error) {
       socket.close();
@@ -791,6 +804,20 @@ export class WeftClient extends Commands {
         resolve(undefined);
       };
     });
+  }
+
+  /** An answer, after what it gave hold of is noted. */
+  #noted(ok) {
+    if (ok.grab !== undefined) this.#held.add(ok.grab);
+    return ok;
+  }
+
+  /** Takes over what this client held before its connection broke, and lets go of what it let go of meanwhile. */
+  async #resume(seat) {
+    if (this.#held.size === 0) return;
+    const { grabs } = await this.resumeSeat(seat).catch(() => ({ grabs: [] }));  // too late: all is released
+    for (const grab of grabs) if (!this.#held.has(grab)) this.post('grab.release', { grab });
+    for (const grab of this.#held) if (!grabs.includes(grab)) this.#held.delete(grab);
   }
 
   #failRequests(error) {

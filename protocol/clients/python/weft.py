@@ -18,6 +18,7 @@ import contextlib
 import dataclasses
 import json
 import math
+import random
 import ssl
 import struct
 import sys
@@ -285,7 +286,7 @@ def message_text(op: str, members: typing.Optional[dict] = None, id: typing.Opti
 
 async def connect(url: str, *, client: typing.Optional[str] = None, window: int = 2, timeout: float = 5.0,
                   on_message: typing.Optional[typing.Callable[[dict], None]] = None, token: typing.Optional[str] = None,
-                  tls: typing.Optional[ssl.SSLContext] = None) -> "Client":
+                  tls: typing.Optional[ssl.SSLContext] = None, reconnect: bool = False) -> "Client":
     """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME or wss://: done when the server has greeted, described the scene, and agreed
     on the flow of frames.
 
@@ -296,33 +297,34 @@ async def connect(url: str, *, client: typing.Optional[str] = None, window: int 
                 `notice`, `error`
     token       the server's, where it asks for one
     tls         whom to trust with wss://, as ssl.create_default_context(cafile=...); without one whom this machine trusts
+    reconnect   when the connection breaks it is made again, tried after 0.25, 0.5, 1 s and so on to 10 s, until `close`: at the same
+                camera, with what this client held if that is within 5 s. Frames go on; what is sent meanwhile fails with code `closed`
     """
-    connection = Client(timeout, on_message, token, tls)
+    hello = {"client": client, "caps": ["flow.ack"] if window else [], "window": window or None} if window or client else None
+    connection = Client(url, timeout, on_message, token, tls, hello, reconnect)
     try:
-        await asyncio.wait_for(connection._open(url), timeout)
-    except asyncio.TimeoutError:
+        await connection._open()
+    except WeftError:
         await connection.close()
-        raise WeftError("timeout", f"no connection to {url} within {timeout} s") from None
-    except (OSError, websockets.WebSocketException) as error:
-        await connection.close()
-        raise WeftError("connect", f"no connection to {url}: {error}") from error
-    if window or client:
-        try:
-            await connection.send("hello", client=client, caps=["flow.ack"] if window else [], window=window or None)
-        except WeftError:
-            await connection.close()
-            raise
+        raise
     return connection
+
+
+def backoff(attempt: int, random: typing.Callable[[], float] = random.random) -> float:
+    """s to wait before the attempt, counted from 0: doubled from 0.25 to 10, less up to half of it by chance."""
+    return min(10.0, 0.25 * 2.0 ** min(attempt, 10)) * (0.5 + 0.5 * random())
 
 
 class Client:
     """A connection to one scene. Made by `connect`; iterate over it for frames."""
 
-    def __init__(self, timeout: float, on_message: typing.Optional[typing.Callable[[dict], None]],
-                 token: typing.Optional[str] = None, tls: typing.Optional[ssl.SSLContext] = None):
+    def __init__(self, url: str, timeout: float, on_message: typing.Optional[typing.Callable[[dict], None]],
+                 token: typing.Optional[str] = None, tls: typing.Optional[ssl.SSLContext] = None,
+                 hello: typing.Optional[dict] = None, reconnect: bool = False):
         self.welcome: typing.Optional[dict] = None  #: the server's `welcome`
         self.scene: typing.Optional[dict] = None    #: the newest `scene` message
         self.stats: typing.Optional[dict] = None    #: the newest `stats` message
+        self._url, self._hello, self._reconnect = url, hello, reconnect
         self._timeout, self._on_message = timeout, on_message
         self._headers, self._tls = {"Authorization": f"Bearer {token}"} if token else {}, tls
         self._socket = None
@@ -336,17 +338,61 @@ class Client:
         self._newest: typing.Optional[bytes] = None
         self._news = asyncio.Event()  # a frame has come, or the connection has ended
         self._greeted = asyncio.Event()
+        self._returning: typing.Optional[asyncio.Task] = None  # while the connection is made again
+        self._camera: typing.Optional[dict] = None  # as it was told last
+        self._greeted_once = False
+        self._held: typing.Set[int] = set()         # ids of grabs that this client has not let go of
 
-    async def _open(self, url):
-        self._url = url
+    async def _open(self):
+        """Connects: greeted, the scene described, `hello` answered, and where it was before as far as that can be."""
+        before, self.welcome, self.scene, self._lost, self._acks = self.scene, None, None, None, False
+        self._quickest_ping, self._clock_offset_ms = math.inf, math.nan
+        self._greeted.clear()
+        try:
+            await asyncio.wait_for(self._greet(), self._timeout)
+        except asyncio.TimeoutError:
+            raise WeftError("timeout", f"no connection to {self._url} within {self._timeout} s") from None
+        except (OSError, websockets.WebSocketException) as error:
+            raise WeftError("connect", f"no connection to {self._url}: {error}") from error
+        if self._hello:
+            await self.send("hello", **self._hello)
+        if self._camera:
+            with contextlib.suppress(WeftError):  # refused then, it is refused now
+                await self.send("camera", **self._camera)
+        if self._held and before and before.get("seat") and before["name"] == self.scene["name"]:
+            await self._resume(before["seat"])
+
+    async def _greet(self):
         # The server negotiates no compression; saying so spares the offer.
-        secure = {"ssl": self._tls} if self._tls and url.startswith("wss:") else {}
-        self._socket = await websockets.connect(url, subprotocols=[SUBPROTOCOL], compression=None, max_size=MAX_MESSAGE_BYTES,
+        secure = {"ssl": self._tls} if self._tls and self._url.startswith("wss:") else {}
+        self._socket = await websockets.connect(self._url, subprotocols=[SUBPROTOCOL], compression=None, max_size=MAX_MESSAGE_BYTES,
                                                 open_timeout=None, extra_headers=self._headers, **secure)
         self._reader = asyncio.create_task(self._read())
         await self._greeted.wait()
         if self._lost:
             raise self._lost
+
+    async def _resume(self, seat):
+        """Takes over what this client held before its connection broke, and lets go of what it let go of meanwhile."""
+        try:
+            grabs = set((await self.resume_seat(seat))["grabs"])
+        except WeftError:  # too late: all is released
+            grabs = set()
+        for grab in grabs - self._held:
+            await self.post("grab.release", grab=grab)
+        self._held &= grabs
+
+    async def _return(self):
+        """Connects again, as often as it takes."""
+        attempt = 0
+        while not self._closing:
+            await asyncio.sleep(backoff(attempt))
+            attempt += 1
+            try:
+                return await self._open()
+            except WeftError:
+                if self._socket is not None:
+                    await self._socket.close()
 
     async def _read(self):
         """Takes everything in as it comes, so that nothing queues: replies to their requests, frames to the newest."""
@@ -370,6 +416,9 @@ class Client:
                 future.set_exception(self._lost)
         self._news.set()
         self._greeted.set()
+        returning = self._returning is not None and not self._returning.done()
+        if self._reconnect and not self._closing and error is None and not returning and self._greeted_once:
+            self._returning = asyncio.create_task(self._return())
 
     def _receive(self, message):
         op = message.get("op")
@@ -388,6 +437,7 @@ class Client:
         if op in ("welcome", "scene", "stats"):
             setattr(self, op, message)
         if self.welcome and self.scene:
+            self._greeted_once = True
             self._greeted.set()
         if self._on_message:
             self._on_message(message)
@@ -403,6 +453,10 @@ class Client:
     async def close(self):
         """Ends the connection; open requests fail with code `closed`, iterations end."""
         self._closing = True
+        if self._returning is not None:
+            self._returning.cancel()
+            await asyncio.wait([self._returning])
+            self._news.set()
         if self._socket is not None:
             with contextlib.suppress(websockets.ConnectionClosed):  # the server has gone already
                 await self._socket.close()
@@ -423,11 +477,18 @@ class Client:
         future = self._requests[ident] = asyncio.get_running_loop().create_future()
         try:
             await self._write(text)
-            return await asyncio.wait_for(future, self._timeout)
+            answer = await asyncio.wait_for(future, self._timeout)
         except asyncio.TimeoutError:
             raise WeftError("timeout", f"no answer to {op} within {self._timeout} s") from None
         finally:
             del self._requests[ident]
+            if op == "grab.release":
+                self._held.discard(members["grab"])
+        if op == "camera":
+            self._camera = members
+        if "grab" in answer:
+            self._held.add(answer["grab"])
+        return answer
 
     async def post(self, op: str, **members) -> None:
         """Sends a message that only an error would answer (to `on_message`)."""
@@ -459,6 +520,15 @@ class Client:
         scene: its name
         """
         return await self.send("scene.join", scene=scene)
+
+    async def resume_seat(self, seat: str) -> dict:
+        """Takes over what this client held before its connection broke. `seat` is that of the `scene` message before.
+        Whoever left without closing the WebSocket is waited for 5 s, as well when the server itself was restarted (with
+        `--data`); until then its hands hold on. `ok` has the ids of `grabs` that are this viewer's now.
+
+        seat: from `scene`
+        """
+        return await self.send("seat.resume", seat=seat)
 
     async def camera(self, *, distance: typing.Optional[float] = None, eye: typing.Optional[Vector] = None,
                      target: typing.Optional[Vector] = None, half_angle: typing.Optional[float] = None) -> dict:
@@ -712,9 +782,10 @@ class Client:
 
     async def __anext__(self) -> Frame:
         """The newest frame not seen yet, acknowledged as it is taken. Frames nobody takes are not acknowledged, and the server
-        then stops sending. Ends when either side closes in order; raises WeftError when the connection is lost."""
+        then stops sending. Ends when either side closes in order; raises WeftError when the connection is lost and not made
+        again."""
         while self._newest is None:
-            if self._lost:
+            if self._lost and (self._closing or self._returning is None or self._returning.done()):
                 if self._closing or self._socket.close_code in (1000, 1001):
                     raise StopAsyncIteration
                 raise self._lost
