@@ -47,7 +47,8 @@ class Config(unittest.TestCase):
 
     def test_what_is_printed_is_a_file_that_means_the_same(self):
         arguments = ["flag", "curtain", "--port", 11, "--host-name", "a.example", "--host-name", "b.example", "--insecure", "--set",
-                     '/wind/speed=8', "--log", "json"]
+                     '/wind/speed=8', "--set", '/title="#1"', "--tokens", self.folder / "a#'b.json", "--log", "json"]
+        arguments[-3].write_text("{}")
         values = {name: value.split("  # ")[0] for name, value in self.lines(*arguments).items()}
         again = self.lines("--config", self.file(self.weft("config", "print", *arguments)))
         self.assertEqual({name: value.split("  # ")[0] for name, value in again.items()}, values)
