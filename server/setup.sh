@@ -11,6 +11,8 @@ test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapid
                python3 python3-websockets valgrind chromium fonts-dejavu-core)
 # To check it: format and lint.
 lint_packages=(clang clang-format clang-tidy)
+# To fuzz it: libFuzzer and the sanitizers of Debian's clang.
+fuzz_packages=(clang libclang-rt-14-dev)
 
 # install_missing PACKAGE...: installs what is not there, in one apt-get call; silent when nothing is missing.
 install_missing() {
