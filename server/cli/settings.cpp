@@ -65,8 +65,7 @@ std::map<std::string, Values> read_file(const std::filesystem::path& file, const
   for (TomlEntry& entry : entries) {
     if (std::find(known.begin(), known.end(), entry.name) == known.end())
       throw unknown(file, entry.name, known);
-    if (!found.emplace(entry.name, std::move(entry.values)).second)
-      throw BadSetting(file.string() + ": " + entry.name + " is given twice");
+    found.emplace(std::move(entry.name), std::move(entry.values));
   }
   return found;
 }
@@ -90,8 +89,8 @@ void take(CLI::Option& option, const Values& values, const std::string& source) 
 }
 
 std::string quoted(const std::string& value) {
-  const bool number =
-      !value.empty() && value.find_first_not_of("0123456789") == std::string::npos && value.size() < 16;
+  const bool number = value == "0" || (!value.empty() && value.front() != '0' && value.size() < 16 &&
+                                       value.find_first_not_of("0123456789") == std::string::npos);
   return number ? value : toml_string(value);
 }
 

@@ -11,13 +11,12 @@ struct TomlEntry {
   std::vector<std::string> values;
 };
 
-/// The part of TOML 1.0 that a list of options needs: comments; strings in one line, with quotes and escapes
-/// resolved; numbers and `true` and `false`, as they stand; arrays of these, over as many lines as one likes.
-/// Other words without quotes are taken as they stand, too. Tables, and all else, are refused: throws
-/// std::invalid_argument, naming the line and what is allowed in it.
+/// What a file in TOML 1.0 says, in the order of the names; numbers and dates as toml++ writes them. An entry
+/// is a value or an array of values: throws std::invalid_argument, naming line and column, for tables, arrays
+/// in arrays, and what is not TOML.
 std::vector<TomlEntry> read_toml(std::string_view text);
 
-/// A string that read_toml reads as `value`, whatever bytes that has.
+/// A string in TOML that read_toml reads as `value`, which must be UTF-8.
 std::string toml_string(std::string_view value);
 
 }  // namespace weft::cli
