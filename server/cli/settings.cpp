@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "cli/toml.h"
 
 namespace weft::cli {
 namespace {
@@ -49,21 +52,20 @@ BadSetting unknown(const std::filesystem::path& file, const std::string& name, c
 
 /// By option.
 std::map<std::string, Values> read_file(const std::filesystem::path& file, const Values& known) {
-  std::map<std::string, Values> found;
-  std::vector<CLI::ConfigItem> items;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw BadSetting(file.string() + ": cannot be read");
+  std::vector<TomlEntry> entries;
   try {
-    items = CLI::ConfigTOML().from_file(file.string());
-  } catch (const CLI::Error& error) {
+    entries = read_toml(text);
+  } catch (const std::invalid_argument& error) {
     throw BadSetting(file.string() + ": " + error.what());
   }
-  for (CLI::ConfigItem& item : items) {
-    if (!item.parents.empty())
-      throw BadSetting(file.string() + ": [" + item.parents.front() +
-                       "] is unknown; allowed: options, without tables");
-    const std::string name = item.name;
-    if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown(file, name, known);
-    if (!found.emplace(name, std::move(item.inputs)).second)
-      throw BadSetting(file.string() + ": " + name + " is given twice");
+  std::map<std::string, Values> found;
+  for (TomlEntry& entry : entries) {
+    if (std::find(known.begin(), known.end(), entry.name) == known.end())
+      throw unknown(file, entry.name, known);
+    found.emplace(std::move(entry.name), std::move(entry.values));
   }
   return found;
 }
@@ -72,7 +74,7 @@ void take(CLI::Option& option, const Values& values, const std::string& source) 
   const std::string name = option.get_lnames().front();
   const std::string shown = joined(values);
   try {
-    if (values.size() > 1 && option.get_items_expected_max() == 1)
+    if (values.size() != 1 && option.get_items_expected_max() == 1)
       throw CLI::ValidationError("one value is allowed");
     if (is_flag(option)) {
       if (shown != "true" && shown != "false") throw CLI::ValidationError("allowed: true or false");
@@ -87,9 +89,9 @@ void take(CLI::Option& option, const Values& values, const std::string& source) 
 }
 
 std::string quoted(const std::string& value) {
-  const bool number =
-      !value.empty() && value.find_first_not_of("0123456789") == std::string::npos && value.size() < 16;
-  return number ? value : nlohmann::json(value).dump();
+  const bool number = value == "0" || (!value.empty() && value.front() != '0' && value.size() < 16 &&
+                                       value.find_first_not_of("0123456789") == std::string::npos);
+  return number ? value : toml_string(value);
 }
 
 }  // namespace

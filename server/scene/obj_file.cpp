@@ -77,10 +77,7 @@ void check_faces(std::string_view text) {
 
 }  // namespace
 
-TriangleList read_obj_file(const fs::path& folder, const std::string& file) {
-  std::ifstream opened(place_of(folder, file), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(opened), {}};
-  if (!opened) refuse(std::string("cannot be read: ") + std::strerror(errno));
+TriangleList parse_obj(const std::string& text) {
   check_faces(text);
   std::istringstream stream(text);
   tinyobj::attrib_t attributes;
@@ -104,6 +101,13 @@ TriangleList read_obj_file(const fs::path& folder, const std::string& file) {
   }
   if (list.triangles.empty()) refuse("has no triangles: \"f\" lines of an OBJ file");
   return list;
+}
+
+TriangleList read_obj_file(const fs::path& folder, const std::string& file) {
+  std::ifstream opened(place_of(folder, file), std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(opened), {}};
+  if (!opened) refuse(std::string("cannot be read: ") + std::strerror(errno));
+  return parse_obj(text);
 }
 
 }  // namespace weft::scene
