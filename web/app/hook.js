@@ -1,5 +1,6 @@
-/** `window.weft`: what tests and the curious read. */
-export function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff, effects, material, panel, obstacles}) {
+/** `window.weft`: what tests and the curious read. @param {import('./scene_page.js').ScenePage} page */
+export function publishHook(page) {
+  const {link, show, rig, stage, hand, clothHand, counts, latest, effects, material, panel, obstacles} = page;
   window.weft = {
     get stats() {
       return {
@@ -15,7 +16,7 @@ export function publishHook({link, show, rig, stage, hand, clothHand, counts, la
         wind: show.wind,
         obstacles: show.obstacles.meshes.map((_, index) => show.obstacles.place(index)),
         hand: clothHand.held,
-        effectsOff: effectsOff(),
+        effectsOff: page.effectsOff,
         parameters: effects.parameters,
         materials: material.materials,
         frictions: [...obstacles.friction.frictions.values()],

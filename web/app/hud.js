@@ -78,7 +78,7 @@ export class Hud {
 
   showConnection(state) {
     byId('connection').dataset.state = state;
-    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected', locked: 'not connected'}[state]);
+    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected', locked: 'not connected', resting: 'resting'}[state]);
   }
 
   /** @param {string|null} text null takes it away @param {boolean} retry offer to try at once */

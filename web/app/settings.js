@@ -5,7 +5,7 @@ const kFieldOfView = 42;  // degrees
 /**
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" or "ws://host/path", without a slash at its end
- * @property {string|null} scene name of the scene; null: the first one the service lists
+ * @property {string|null} scene name of the scene; null: the gallery, or the only one there is
  * @property {string|null} token shown to the service; null: none
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
@@ -57,5 +57,12 @@ function serverAddress(given, address) {
 export function addressOfScene(address, scene) {
   const next = new URL(address);
   next.searchParams.set('scene', scene);
+  return next;
+}
+
+/** The address of the gallery on the same terms. */
+export function addressOfGallery(address) {
+  const next = new URL(address);
+  next.searchParams.delete('scene');
   return next;
 }
