@@ -7,6 +7,7 @@ import {handlersFor} from './messages.js';
 import {listenToKeys} from '../input/keyboard.js';
 import {Notices} from './notices.js';
 import {publishHook} from './hook.js';
+import {addressOfView, readCamera, readWind, sameWind} from './view_link.js';
 import {Show} from './show.js';
 
 const byId = (id) => document.getElementById(id);
@@ -82,12 +83,18 @@ export class ScenePage {
     else this.panel.setScenes(this.scenes, this.sceneShown);
   }
 
-  /** A scene's `scene` message has come: takes its camera and its address. */
+  /** A scene's `scene` message has come: takes its camera, or the link's, and its address. */
   arrive({name, title, camera}) {
     this.view.forget();
-    if (this.sceneShown !== name) this.rig.place(camera.eye ?? [0, 0, camera.distance], camera.target ?? [0, 0, 0]);
     const address = new URL(location.href);
     const asked = readSettings(address, devicePixelRatio).scene;
+    if (this.sceneShown !== name) {
+      const linked = asked === name ? readCamera(address) : null;
+      if (linked) this.rig.place(linked.eye, linked.target);
+      else this.rig.place(camera.eye ?? [0, 0, camera.distance], camera.target ?? [0, 0, 0]);
+      const wind = asked === name && this.show.hasWind ? readWind(address) : null;
+      this.keep.offerWind(wind && !sameWind(wind, this.show.wind) ? wind : null);
+    }
     if (asked !== name) history[asked === null ? 'replaceState' : 'pushState'](null, '', addressOfScene(address, name));
     this.sceneShown = name;
     document.title = `${title || name} · Weft`;
@@ -114,6 +121,14 @@ export class ScenePage {
   setEffectsOff(off) {
     this.effectsOff = off;
     this.effects.setOff(off);
+  }
+
+  /** The address of what is seen now. */
+  get address() {
+    const {eye, target} = this.rig.view;
+    return addressOfView(new URL(location.href), {
+      scene: this.sceneShown, eye, target, wind: this.show.hasWind ? this.show.wind : null, wireframe: this.show.wireframe,
+    });
   }
 
   /** The hands hold nothing any more. */
@@ -166,7 +181,7 @@ export class ScenePage {
     const live = detail.state === 'open';
     panel.setLive(live, this.mayControl);
     this.letGo();
-    for (const part of [this.obstacles, this.cost, this.effects, this.material, this.zones]) part.setLive(live && this.mayControl);
+    for (const part of [this.obstacles, this.cost, this.effects, this.material, this.zones, this.keep]) part.setLive(live && this.mayControl);
     this.retryAt = null;
     if (live) {
       hud.showBanner(null);

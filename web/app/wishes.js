@@ -2,6 +2,7 @@ import {BodyHand} from '../input/body_hand.js';
 import {ClothHand} from '../input/cloth_hand.js';
 import {CostPanel} from '../panels/cost_panel.js';
 import {EffectsPanel} from '../panels/effects_panel.js';
+import {KeepPanel} from '../panels/keep_panel.js';
 import {MaterialPanel} from '../panels/material_panel.js';
 import {ObstaclesPanel} from '../panels/obstacles_panel.js';
 import {Panel} from '../panels/panel.js';
@@ -84,6 +85,11 @@ export function equip(page) {
     setFriction: async (obstacle, friction) => {
       if (!(await ask(commands.setFriction(friction, {obstacle})))) page.obstacles.friction.takeBack(obstacle);
     },
+  });
+  page.keep = new KeepPanel({
+    address: () => page.address,
+    told: (text) => page.hud.toast(text, 'plain'),
+    setWind: page.actions.setWind,
   });
   // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   page.clothHand = new ClothHand(stage, show, {
