@@ -1,7 +1,8 @@
 // The gallery: a card a scene, each with a stream of its own while it is in sight, and the way to a scene and back.
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
-import {differingPixels, openPage, openScene, startServer, stats, until} from './harness.mjs';
+import {setTimeout as sleep} from 'node:timers/promises';
+import {differingPixels, hide, openPage, openScene, sent, startServer, stats, until, viewersAre} from './harness.mjs';
 
 const kScenes = ['flag', 'curtain', 'zheng2020-distance', 'zheng2020-wind', 'fan', 'flag-gusts'];
 const kMostLive = 4;
@@ -17,23 +18,6 @@ before(async () => {
 
 const live = (of = page) => of.$$eval('.card[data-state=live]', (cards) => cards.map(({dataset}) => dataset.scene));
 const streams = (scene) => page.waitForSelector(`.card[data-scene="${scene}"][data-state=live][data-frames]`);
-/** What the server has sent so far, over all connections, and how many viewers it has. */
-async function sent() {
-  const text = await (await fetch(`${server.address}/metrics`)).text();
-  const value = (name) => Number(text.match(new RegExp(`^${name} (\\S+)$`, 'm'))[1]);
-  return {frames: value('weft_sent_frames_total'), texts: value('weft_sent_texts_total'), viewers: value('weft_viewers')};
-}
-async function viewersAre(wanted) {
-  for (let tries = 0; tries < 200; ++tries) {
-    if ((await sent()).viewers === wanted) return;
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-  assert.fail(`the server has ${(await sent()).viewers} viewers, not ${wanted}`);
-}
-const hide = (hidden, of = page) => of.evaluate((on) => {
-  Object.defineProperty(document, 'hidden', {configurable: true, get: () => on});
-  document.dispatchEvent(new Event('visibilitychange'));
-}, hidden);
 
 test('a card a scene: title, name, cloths, viewers, and the address that opens it', async () => {
   const {scenes} = await (await fetch(`${server.address}/v1/scenes`)).json();
@@ -67,13 +51,12 @@ test('a card out of sight costs nothing, until it is scrolled to', async () => {
 });
 
 test('hidden, the gallery has no connection; in sight again, it has', async () => {
-  await hide(true);
-  await viewersAre(0);
-  const {frames, texts} = await sent();
-  await new Promise((resolve) => setTimeout(resolve, 500));
-  const after = await sent();
-  assert.deepEqual([after.frames, after.texts], [frames, texts]);
-  await hide(false);
+  await hide(page, true);
+  await viewersAre(server, 0);
+  const before = await sent(server);
+  await sleep(500);
+  assert.deepEqual(await sent(server), before);
+  await hide(page, false);
   await streams('flag-gusts');
 });
 
@@ -82,7 +65,7 @@ test('a card opens its scene, the button goes back, and so does the browser', as
   await until(page, () => window.weft?.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
   assert.equal(new URL(page.url()).searchParams.get('scene'), 'curtain');
   assert.equal(await page.isVisible('#gallery'), false);
-  await viewersAre(1);  // no card streams any more
+  await viewersAre(server, 1);  // no card streams any more
 
   await page.click('#scenes');
   await streams('curtain');
@@ -124,7 +107,7 @@ test('who wants little motion gets pictures that stand still, and the server has
   const {page: still} = await openPage(`${server.address}/?quality=low`, {...kWindow, reducedMotion: 'reduce'});
   await page.close();
   await still.waitForSelector('.card[data-scene=flag][data-frames][data-state=still]');
-  await viewersAre(0);
+  await viewersAre(server, 0);
   const shoot = () => still.locator('.card[data-scene=flag] canvas').screenshot();
   assert.equal((await differingPixels(still, await shoot(), await shoot(), 0)).differing, 0);
   await still.close();
