@@ -69,6 +69,7 @@ export class ScenePage {
     this.here = false;
     this.wanted = null;
     this.retryAt = null;
+    this.video.stop();
     this.hud.showBanner(null);
     this.link.rest();
   }
@@ -158,6 +159,7 @@ export class ScenePage {
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.#connect();
       else if (this.wanted !== null) link.rest();
+      if (document.hidden) this.video.stop();  // nothing is drawn any more
     });
     new ResizeObserver(() => this.stage.setInsets(...panel.covers())).observe(byId('controls'));
     byId('scenes').addEventListener('click', (event) => {
@@ -232,7 +234,9 @@ export class ScenePage {
     this.#showBalls();
     this.#showWaiting(nowMs);
     this.#showRates(nowMs);
-    if (!stage.changed) return;
+    this.keep.setSaving(levels.length > 0, this.video.possible);
+    this.keep.showRecording(this.video.recording ? this.video.seconds : null);
+    if (!stage.changed && !this.video.recording) return;  // a video has pictures of what stands still, too
     counts.drawn += 1;
     stage.draw();
   }

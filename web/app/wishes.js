@@ -7,6 +7,10 @@ import {MaterialPanel} from '../panels/material_panel.js';
 import {ObstaclesPanel} from '../panels/obstacles_panel.js';
 import {Panel} from '../panels/panel.js';
 import {ZonesPanel} from '../panels/zones_panel.js';
+import {download, fileName} from '../saving/download.js';
+import {makeModel} from '../saving/model.js';
+import {takePicture} from '../saving/picture.js';
+import {Video} from '../saving/video.js';
 
 const kBallRadius = 0.2;
 const kButtonThrow = 7;  // m/s
@@ -90,7 +94,11 @@ export function equip(page) {
     address: () => page.address,
     told: (text) => page.hud.toast(text, 'plain'),
     setWind: page.actions.setWind,
+    picture: () => save(page, 'png', takePicture(stage)),
+    record: () => (page.video.recording ? page.video.stop() : page.video.start()),
+    model: () => save(page, 'glb', makeModel(show)),
   });
+  page.video = new Video(stage.renderer.domElement, (video, ending) => save(page, ending, video));
   // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   page.clothHand = new ClothHand(stage, show, {
     grab: (cloth, u, v, position) => ask(commands.grab(cloth, u, v, {position})),
@@ -110,6 +118,16 @@ export function equip(page) {
     },
     holding: (holds) => (rig.controls.enabled = !holds),
   });
+}
+
+/** Saves a file, when it is made, under the name of the scene and its time now. */
+async function save(page, ending, file) {
+  const name = fileName(page.show.description.name, page.show.stamp.time, ending);
+  try {
+    download(await file, name);
+  } catch (error) {
+    page.hud.toast(error.message);
+  }
 }
 
 /** Where a new ball hangs: between the camera and the nearest cloth, off its surface. */
