@@ -122,7 +122,7 @@ export function equip(page) {
 
 /** Saves a file, when it is made, under the name of the scene and its time now. */
 async function save(page, ending, file) {
-  const name = fileName(page.show.description.name, page.show.stamp.time, ending);
+  const name = fileName(page.sceneShown, page.show.stamp.time, ending);
   try {
     download(await file, name);
   } catch (error) {

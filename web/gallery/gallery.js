@@ -31,7 +31,10 @@ export class Gallery {
     this.working = false;  // shown, and not hidden
     this.timers = [];
     this.sight = new IntersectionObserver((entries) => {
-      for (const {target, isIntersecting} of entries) this.cards.get(target.dataset.scene).inSight = isIntersecting;
+      for (const {target, isIntersecting} of entries) {
+        const card = this.cards.get(target.dataset.scene);  // gone, if its scene was ended meanwhile
+        if (card) card.inSight = isIntersecting;
+      }
     }, {root: place, threshold: kLeastSeen});
     this.sizes = new ResizeObserver((entries) => {
       for (const {target} of entries) this.cards.get(target.parentElement.dataset.scene)?.soil();

@@ -7,7 +7,6 @@ import {BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshStandardMa
  * @returns {Promise<Blob>}
  */
 export async function makeModel(show) {
-  const {GLTFExporter} = await import('../three/GLTFExporter.js');  // of no use before
   const model = new Group();
   model.name = show.description.name;
   model.userData = {scene: show.description.name, seconds: show.stamp.time};
@@ -17,6 +16,7 @@ export async function makeModel(show) {
   show.obstacles.meshes.forEach((mesh, index) => {
     if (mesh?.geometry.attributes.position && mesh.userData.home.shape !== 'plane') model.add(solidOf(mesh, `obstacle ${index}`));
   });
+  const {GLTFExporter} = await import('../three/GLTFExporter.js');  // of no use before; what is shown then is another moment
   const bytes = await new GLTFExporter().parseAsync(model, {binary: true, trs: true});
   return new Blob([bytes], {type: 'model/gltf-binary'});
 }
