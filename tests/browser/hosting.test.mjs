@@ -132,3 +132,11 @@ test('an address that is none is told', async () => {
   await page.waitForSelector('#banner:not([hidden]) >> text=server=ftp://somewhere is not an address like ws://host:8080');
   await page.close();
 });
+
+test('a browser without WebGL is told, in the gallery and in a scene', async () => {
+  for (const query of ['', '?scene=flag']) {
+    const {page} = await openPage(`${service.address}/${query}`, {before: () => (HTMLCanvasElement.prototype.getContext = () => null)});
+    await page.waitForSelector('#banner:not([hidden]) >> text=The page cannot start: ');
+    await page.close();
+  }
+});

@@ -89,6 +89,12 @@ export class Hud {
     if (text !== null) write('banner-text', text);
   }
 
+  /** Without what has failed there is no page: a browser without WebGL, an address that is none. @param {Error} error */
+  showFailure(error) {
+    this.showConnection('refused');
+    this.showBanner(`The page cannot start: ${error.message}`);
+  }
+
   /** Asks for a token until one is given. @param {string} why @param {(token: string) => void} give */
   askToken(why, give) {
     this.showBanner(why);

@@ -10,8 +10,7 @@ const screens = {gallery: document.getElementById('gallery'), scene: document.ge
 try {
   start(readSettings(new URL(location.href), devicePixelRatio));
 } catch (error) {
-  hud.showConnection('refused');
-  hud.showBanner(`The page cannot start: ${error.message}`);
+  hud.showFailure(error);
 }
 
 function start(settings) {
@@ -45,8 +44,13 @@ function start(settings) {
   /** Shows what the address says now. */
   function follow() {
     const {scene} = readSettings(new URL(location.href), devicePixelRatio);
-    if (scene === null) show('gallery').enter();
-    else show('scene').enter(scene);
+    try {
+      if (scene === null) show('gallery').enter();
+      else show('scene').enter(scene);
+    } catch (error) {
+      shown = null;  // it was never made
+      hud.showFailure(error);
+    }
   }
 
   /** Follows a link of the page's own. @param {string} address */

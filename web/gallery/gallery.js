@@ -117,6 +117,7 @@ export class Gallery {
       this.hud.showBanner(null);
       if (scenes.length === 1 && this.cards.size === 0) return this.router.single(scenes[0].name);
       this.#tell(scenes);
+      if (!this.working) return;
     } else {
       delay = backoff(failed);
       this.hud.showBanner(`No list of scenes from ${new URL(this.settings.server).host}. Next attempt in ${Math.ceil(delay / 1000)} s.`, true);
@@ -134,7 +135,13 @@ export class Gallery {
 
   /** Shows the list: new scenes get a card, those that are gone lose theirs. */
   #tell(scenes) {
-    this.painter ??= new Painter(this.settings, () => this.cards.forEach((card) => card.soil()));
+    try {
+      this.painter ??= new Painter(this.settings, () => this.cards.forEach((card) => card.soil()));
+    } catch (error) {
+      this.leave();
+      this.hud.showFailure(error);
+      return;
+    }
     const summary = scenes.length === 0 ? 'This server has no scene.' : `${scenes.length} ${scenes.length === 1 ? 'scene' : 'scenes'}`;
     if (this.summary.textContent !== summary) this.summary.textContent = summary;
     const names = new Set(scenes.map(({name}) => name));
