@@ -69,7 +69,7 @@ test('a token that is typed once goes for the gallery, its pictures and the scen
   assert.equal(await page.locator('#banner').isVisible(), false);
   assert.equal((await page.locator('.card').first().getAttribute('href')).includes(kTokens.view), false);
   await page.click('.card[data-scene=curtain]');
-  await until(page, () => window.weft?.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
+  await until(page, () => weft.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
   assert.equal(await page.locator('#banner').isVisible(), false);
   await page.close();
 });

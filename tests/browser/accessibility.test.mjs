@@ -59,7 +59,7 @@ test('on a phone', async () => {
   await page.waitForSelector('.card[data-frames]');
   await isSound(page, 'gallery');
   await page.tap('.card[data-scene=flag]');
-  await until(page, () => window.weft?.stats.connected && weft.stats.cloths.length > 0);
+  await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
   await page.tap('#fold');
   await isSound(page, 'flag');
   await page.close();

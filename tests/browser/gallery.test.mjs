@@ -62,7 +62,7 @@ test('hidden, the gallery has no connection; in sight again, it has', async () =
 
 test('a card opens its scene, the button goes back, and so does the browser', async () => {
   await page.click('.card[data-scene=curtain]');
-  await until(page, () => window.weft?.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
+  await until(page, () => weft.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
   assert.equal(new URL(page.url()).searchParams.get('scene'), 'curtain');
   assert.equal(await page.isVisible('#gallery'), false);
   await viewersAre(server, 1);  // no card streams any more
@@ -116,7 +116,7 @@ test('who wants little motion gets pictures that stand still, and the server has
 test('one scene is opened straight away', async () => {
   const single = await startServer(['flag']);
   const {page: other} = await openPage(`${single.address}/?quality=low`);
-  await until(other, () => window.weft?.stats.connected && weft.stats.cloths.length > 0);
+  await until(other, () => weft.stats.connected && weft.stats.cloths.length > 0);
   assert.equal((await stats(other)).scene, 'flag');
   assert.equal(new URL(other.url()).searchParams.get('scene'), 'flag');
   assert.equal(await other.isVisible('#scenes'), false);

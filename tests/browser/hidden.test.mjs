@@ -45,7 +45,7 @@ test('hidden and seen in one breath it is connected, once', async () => {
 test('a page that is opened in the background connects when it is first seen', async () => {
   const {page: other} = await openPage(`${server.address}/?quality=low&scene=curtain`,
     {before: () => Object.defineProperty(document, 'hidden', {configurable: true, get: () => true})});
-  await other.waitForFunction(() => window.weft);
+  await other.waitForFunction(() => window.weft?.setCameraDistance);
   await sleep(300);
   await viewersAre(server, 1);
   await hide(other, false);

@@ -81,7 +81,7 @@ test('behind a proxy the page asks for everything below its own path', async () 
   const proxy = await startProxy('/cloth/');
   const {page, witness} = await openPage(`${proxy.address}?quality=low`);
   await page.click('.card[data-scene=flag]');
-  await until(page, () => window.weft?.stats.connected && weft.stats.frames > 3);
+  await until(page, () => weft.stats.connected && weft.stats.frames > 3);
   assert.equal((await stats(page)).scene, 'flag');
   await page.selectOption('#scene', 'round-table');
   await until(page, () => weft.stats.connected && weft.stats.scene === 'round-table' && weft.stats.cloths.length > 0);

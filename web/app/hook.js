@@ -1,3 +1,8 @@
+/** `window.weft` before there is a scene. */
+export function publishEmptyHook() {
+  window.weft = {stats: {connected: false, scene: null, frames: 0, cloths: [], balls: []}};
+}
+
 /** `window.weft`: what tests and the curious read. @param {import('./scene_page.js').ScenePage} page */
 export function publishHook(page) {
   const {link, show, rig, stage, hand, clothHand, counts, latest, effects, material, panel, obstacles} = page;

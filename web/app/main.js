@@ -2,6 +2,7 @@
 import {Gallery} from '../gallery/gallery.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Hud} from './hud.js';
+import {publishEmptyHook} from './hook.js';
 import {ScenePage} from './scene_page.js';
 
 const hud = new Hud();
@@ -14,6 +15,7 @@ try {
 }
 
 function start(settings) {
+  publishEmptyHook();
   document.documentElement.classList.toggle('low', !settings.high);
   const access = {token: settings.token};  // a token that a viewer has typed goes for all that this page opens
   let shown = null;
