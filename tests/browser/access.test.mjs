@@ -60,6 +60,20 @@ test('who may only look has no controls but the camera and the choice of scene',
   await page.close();
 });
 
+test('a token that is typed once goes for the gallery, its pictures and the scenes that it opens', async () => {
+  const several = await startServer(['flag', 'curtain', '--tokens', join(folder, 'tokens.json')]);
+  const {page} = await openPage(`${several.address}/?quality=low`);
+  await page.locator('#token').fill(kTokens.view);
+  await page.locator('#token').press('Enter');
+  await page.waitForSelector('.card[data-scene=curtain][data-frames]');
+  assert.equal(await page.locator('#banner').isVisible(), false);
+  assert.equal((await page.locator('.card').first().getAttribute('href')).includes(kTokens.view), false);
+  await page.click('.card[data-scene=curtain]');
+  await until(page, () => weft.stats.connected && weft.stats.scene === 'curtain' && weft.stats.cloths.length > 0);
+  assert.equal(await page.locator('#banner').isVisible(), false);
+  await page.close();
+});
+
 test('works over TLS', async () => {
   const certificate = join(folder, 'certificate.pem'), key = join(folder, 'key.pem');
   execFileSync('openssl', ['req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-days', '2', '-subj', '/CN=localhost',

@@ -3,6 +3,7 @@ import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {createInterface} from 'node:readline';
 import {after} from 'node:test';
+import {setTimeout as sleep} from 'node:timers/promises';
 import WebSocket from 'ws';
 import {connect} from '../../protocol/clients/js/weft.js';
 import {openChromium} from './chromium.mjs';
@@ -55,14 +56,16 @@ export class Witness {
 }
 
 /**
- * Opens a page in a window of its own.
+ * Opens a page in a window of its own; `before` is what it does before anything else.
  * @returns {Promise<{page: import('playwright-core').Page, witness: Witness}>}
  */
 export async function openPage(address, options = {}) {
   browser ??= await openChromium();
-  const page = await browser.newPage({viewport: {width: 900, height: 640}, deviceScaleFactor: 0.25, reducedMotion: 'reduce', ...options});
+  const {before, ...window} = options;
+  const page = await browser.newPage({viewport: {width: 900, height: 640}, deviceScaleFactor: 0.25, reducedMotion: 'reduce', ...window});
   page.setDefaultTimeout(kPatienceMs);
   const witness = new Witness(page);
+  if (before) await page.addInitScript(before);
   await page.goto(address);
   return {page, witness};
 }
@@ -97,6 +100,32 @@ export async function until(page, condition, argument) {
   } catch (error) {
     const stats = await page.evaluate(() => JSON.stringify(window.weft?.stats)).catch(() => 'page is gone');
     throw new Error(`never true: ${condition} (${JSON.stringify(argument)}); the page says ${stats}`, {cause: error});
+  }
+}
+
+/** Has a page believe that it is hidden, as a tab behind another one, or that it is seen again. */
+export const hide = (page, hidden) => page.evaluate((on) => {
+  Object.defineProperty(document, 'hidden', {configurable: true, get: () => on});
+  document.dispatchEvent(new Event('visibilitychange'));
+}, hidden);
+
+/** A server's metric without labels. */
+export async function metric(server, name) {
+  const text = await (await fetch(`${server.address}/metrics`)).text();
+  return Number(text.match(new RegExp(`^${name} (\\S+)$`, 'm'))[1]);
+}
+
+/** What a server has sent so far, over all connections. */
+export const sent = async (server) =>
+  Promise.all(['weft_sent_frames_total', 'weft_sent_texts_total'].map((name) => metric(server, name)));
+
+/** Waits until a server has so many viewers. */
+export async function viewersAre(server, wanted) {
+  const endMs = Date.now() + kPatienceMs;
+  let viewers;
+  while ((viewers = await metric(server, 'weft_viewers')) !== wanted) {
+    if (Date.now() > endMs) throw new Error(`the server has ${viewers} viewers, not ${wanted}`);
+    await sleep(50);
   }
 }
 

@@ -80,8 +80,9 @@ async function startProxy(path) {
 test('behind a proxy the page asks for everything below its own path', async () => {
   const proxy = await startProxy('/cloth/');
   const {page, witness} = await openPage(`${proxy.address}?quality=low`);
+  await page.click('.card[data-scene=flag]');
   await until(page, () => weft.stats.connected && weft.stats.frames > 3);
-  assert.equal((await stats(page)).scene, 'flag');  // the first of the list
+  assert.equal((await stats(page)).scene, 'flag');
   await page.selectOption('#scene', 'round-table');
   await until(page, () => weft.stats.connected && weft.stats.scene === 'round-table' && weft.stats.cloths.length > 0);
   for (let tries = 0; !proxy.asked.some((path) => path.includes('/meshes/')) && tries < kPatienceMs / 100; ++tries) await sleep(100);
@@ -94,10 +95,18 @@ test('behind a proxy the page asks for everything below its own path', async () 
   assert.deepEqual(witness.errors, []);
 });
 
-test('without a scene it is the service’s first one', async () => {
+test('without a scene it is the gallery of the service, with its pictures', async () => {
   const {page} = await openPage(`${site}/?quality=low&server=${serviceSocket()}`);
-  await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
-  assert.equal((await stats(page)).scene, 'flag');
+  await page.waitForSelector('.card[data-scene=flag][data-frames]');
+  assert.deepEqual(await page.$$eval('.card', (cards) => cards.map(({dataset}) => dataset.scene)), ['flag', 'curtain', 'round-table']);
+  assert.equal(new URL(await page.getAttribute('.card[data-scene=curtain]', 'href')).searchParams.get('server'), serviceSocket());
+  await page.close();
+});
+
+test('without a scene a service that is not there is told, and tried again', async () => {
+  const {page} = await openPage(`${site}/?quality=low&server=ws://127.0.0.1:9`);
+  await page.waitForSelector('#banner:not([hidden]) >> text=No list of scenes from 127.0.0.1:9.');
+  assert.equal(await page.isVisible('#banner-retry'), true);
   await page.close();
 });
 
@@ -122,4 +131,12 @@ test('an address that is none is told', async () => {
   const {page} = await openPage(`${site}/?server=ftp://somewhere`);
   await page.waitForSelector('#banner:not([hidden]) >> text=server=ftp://somewhere is not an address like ws://host:8080');
   await page.close();
+});
+
+test('a browser without WebGL is told, in the gallery and in a scene', async () => {
+  for (const query of ['', '?scene=flag']) {
+    const {page} = await openPage(`${service.address}/${query}`, {before: () => (HTMLCanvasElement.prototype.getContext = () => null)});
+    await page.waitForSelector('#banner:not([hidden]) >> text=The page cannot start: ');
+    await page.close();
+  }
 });

@@ -1,7 +1,7 @@
 // The page on the server's own port: it connects, the cloth moves, the controls do what they say.
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
-import {areaAround, differingPixels, openPage, openScene, pause, startServer, stats, until} from './harness.mjs';
+import {areaAround, differingPixels, openScene, pause, startServer, stats, until} from './harness.mjs';
 
 const kInside = 0.6;  // m: a square of the cloth, whose sides are 1 m, that its folds leave covered
 
@@ -141,14 +141,6 @@ test('every control has a name and can be reached by the Tab key', async () => {
       !(control.labels?.length || control.textContent.trim() || control.getAttribute('aria-label')) || control.tabIndex < 0)
       .map((control) => control.outerHTML));
   assert.deepEqual(nameless, []);
-});
-
-test('by default it is the first scene', async () => {
-  const {page: other} = await openPage(`${server.address}/?quality=low`);
-  await until(other, () => weft.stats.connected && weft.stats.cloths.length > 0);
-  assert.equal((await stats(other)).scene, 'zheng2020-distance');
-  assert.equal(new URL(other.url()).searchParams.get('scene'), 'zheng2020-distance');
-  await other.close();
 });
 
 test('nothing was loaded from elsewhere, and the console is clean', () => {

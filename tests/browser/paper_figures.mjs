@@ -17,7 +17,8 @@ async function atFrames(scene, distance, frames, take) {
   const server = await startServer([scene]);
   const control = await connect(`${server.address.replace('http', 'ws')}/v1/scenes/${scene}`, {WebSocket});
   await control.camera({distance});
-  const {page} = await openPage(`${server.address}/?scene=${scene}${distance < 1 ? `&fov=${kWide}` : ''}`, {viewport: {width: 1100, height: 900}});
+  const {page} = await openPage(`${server.address}/?scene=${scene}${distance < 1 ? `&fov=${kWide}` : ''}`,
+    {viewport: {width: 1100, height: 900}, deviceScaleFactor: 1});
   await page.addStyleTag({content: '#badge, #controls, #wind-arrow {display: none}'});
   await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
   await page.evaluate((metres) => weft.setCameraDistance(metres), distance);

@@ -15,7 +15,7 @@ const kGallery = {
 };
 const kBrief = 2;  // s; what happens before is over by the time a page is drawn, and is reached step by step
 const kNothingBeside = {content: '.panel, #wind-arrow, #loupe, #banner { display: none !important }'};
-const kWindow = {viewport: {width: 1280, height: 800}};
+const kWindow = {viewport: {width: 1280, height: 800}, deviceScaleFactor: 1};
 
 test('screenshots', {timeout: 900_000}, async () => {
   await mkdir(folder, {recursive: true});

@@ -1,5 +1,11 @@
-/** `window.weft`: what tests and the curious read. */
-export function publishHook({link, show, rig, stage, hand, clothHand, counts, latest, effectsOff, effects, material, panel, obstacles}) {
+/** `window.weft` before there is a scene. */
+export function publishEmptyHook() {
+  window.weft = {stats: {connected: false, scene: null, frames: 0, cloths: [], balls: []}};
+}
+
+/** `window.weft`: what tests and the curious read. @param {import('./scene_page.js').ScenePage} page */
+export function publishHook(page) {
+  const {link, show, rig, stage, hand, clothHand, counts, latest, effects, material, panel, obstacles} = page;
   window.weft = {
     get stats() {
       return {
@@ -15,7 +21,7 @@ export function publishHook({link, show, rig, stage, hand, clothHand, counts, la
         wind: show.wind,
         obstacles: show.obstacles.meshes.map((_, index) => show.obstacles.place(index)),
         hand: clothHand.held,
-        effectsOff: effectsOff(),
+        effectsOff: page.effectsOff,
         parameters: effects.parameters,
         materials: material.materials,
         frictions: [...obstacles.friction.frictions.values()],

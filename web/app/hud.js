@@ -78,7 +78,7 @@ export class Hud {
 
   showConnection(state) {
     byId('connection').dataset.state = state;
-    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected', locked: 'not connected'}[state]);
+    write('connection', {open: 'live', connecting: 'connecting', lost: 'not connected', refused: 'not connected', locked: 'not connected', resting: 'resting'}[state]);
   }
 
   /** @param {string|null} text null takes it away @param {boolean} retry offer to try at once */
@@ -87,6 +87,12 @@ export class Hud {
     byId('banner-retry').hidden = !retry;
     byId('banner-token').hidden = true;
     if (text !== null) write('banner-text', text);
+  }
+
+  /** Without what has failed there is no page: a browser without WebGL, an address that is none. @param {Error} error */
+  showFailure(error) {
+    this.showConnection('refused');
+    this.showBanner(`The page cannot start: ${error.message}`);
   }
 
   /** Asks for a token until one is given. @param {string} why @param {(token: string) => void} give */

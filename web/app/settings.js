@@ -1,3 +1,5 @@
+import {withoutView} from './view_link.js';
+
 /** What the page's address may say. */
 
 const kFieldOfView = 42;  // degrees
@@ -5,7 +7,7 @@ const kFieldOfView = 42;  // degrees
 /**
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" or "ws://host/path", without a slash at its end
- * @property {string|null} scene name of the scene; null: the first one the service lists
+ * @property {string|null} scene name of the scene; null: the gallery, or the only one there is
  * @property {string|null} token shown to the service; null: none
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
@@ -15,7 +17,7 @@ const kFieldOfView = 42;  // degrees
 
 /**
  * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, `?fov=75` (degrees, 20 to 100) for a wider
- * or longer lens, and `?quality=low` for machines that draw without a graphics card. `#token=T` is the token for a service that asks
+ * or longer lens, `?quality=low` for machines that draw without a graphics card, and the view (view_link.js). `#token=T` is the token for a service that asks
  * for one: what stands behind `#` stays in the browser.
  * @param {URL} address the page's own
  * @param {number} devicePixelRatio
@@ -53,9 +55,16 @@ function serverAddress(given, address) {
   return `${url.protocol}//${url.host}${url.pathname.replace(/\/+$/, '')}`;
 }
 
-/** The address under which this page shows `scene`: what a reload or a copied link gives. */
+/** The address under which this page shows `scene`: what a reload gives. */
 export function addressOfScene(address, scene) {
-  const next = new URL(address);
+  const next = withoutView(address);
   next.searchParams.set('scene', scene);
+  return next;
+}
+
+/** The address of the gallery on the same terms. */
+export function addressOfGallery(address) {
+  const next = withoutView(address);
+  next.searchParams.delete('scene');
   return next;
 }

@@ -9,7 +9,6 @@ import {WindArrow} from '../view/wind_arrow.js';
 import {ZonesView} from '../view/zones_view.js';
 
 const kWindEffects = ['paper_wind', 'aerodynamics'];
-const kFabric = {warp: [44, 88, 148], weft: [70, 116, 176], stripe: [246, 236, 214]};
 
 const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - centre[1], eye[2] - centre[2]);
 
@@ -31,7 +30,7 @@ export class Show {
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
-    this.materials = clothMaterials(weaveTextures(kFabric, stage.anisotropy), options.high);
+    this.materials = clothMaterials(weaveTextures(stage.anisotropy), options.high);
     this.materials.fabric.polygonOffset = this.wireframe;
     stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group, this.zones.group);
     /** @type {Map<number, ClothView>} */
@@ -42,15 +41,27 @@ export class Show {
     this.moving = false;
   }
 
-  /** Takes a `scene` message: everything of the scene before is gone. */
-  begin(message) {
-    this.description = message;
+  /** Shows nothing but the ground. */
+  clear() {
+    this.description = null;
     this.timeline.clear();
     for (const view of this.cloths.values()) view.dispose();
     this.cloths.clear();
     this.balls.clear();
-    this.obstacles.show(message.obstacles ?? []);
+    this.obstacles.clear();
     this.marks.clear();
+    this.zones.show([]);
+    this.arrow.set(this.wind.direction, 0);
+    this.loupe.lookAt(null);
+    this.moving = false;
+    this.stage.changed = true;
+  }
+
+  /** Takes a `scene` message: everything of the scene before is gone. */
+  begin(message) {
+    this.clear();
+    this.description = message;
+    this.obstacles.show(message.obstacles ?? []);
     for (const description of message.cloths) {
       const view = new ClothView(description, this.materials, this.instant);
       view.wireframe = this.wireframe;
@@ -177,14 +188,15 @@ export class Show {
     }
     const {centre} = views[0];
     this.loupe.lookAt(centre, extent);
-    if (!first) return this.stage.keepGroundBelow(low);
+    const {surroundings} = this.stage;
+    if (!first) return surroundings.keepGroundBelow(low);
     const floor = this.obstacles.floorHeight();
-    if (floor !== null) return this.stage.frame(centre, extent, floor, true);
+    if (floor !== null) return surroundings.frame(centre, extent, floor, true);
     // Balls count only at the start: a thrown one falls for ever.
     for (const id of this.balls.ids) {
       const {position, radius} = this.balls.ball(id);
       low = Math.min(low, position[1] - radius);
     }
-    this.stage.frame(centre, extent, low - 0.25 * extent);
+    surroundings.frame(centre, extent, low - 0.25 * extent);
   }
 }

@@ -17,7 +17,7 @@ class LinkCommands extends Commands {
  * The page's end of the connection. The socket itself, decoding and reconnecting live in worker.js.
  *
  * Events (all CustomEvents, payload in `detail`):
- *   state    {state: 'connecting'|'open'|'lost'|'refused'|'locked', ...}  see worker.js
+ *   state    {state: 'connecting'|'open'|'lost'|'refused'|'locked'|'resting', ...}  see worker.js
  *   message  a server message that is no reply: welcome, scene, event, stats, curve, notice
  *   frame    {frame, arrivedMs, bytes}
  */
@@ -32,9 +32,15 @@ export class Link extends EventTarget {
     this.connected = false;
   }
 
-  /** Connects and stays connected until the page goes. `scene` null: the first the service lists; `token` null: none is shown. */
+  /** Connects and stays connected until `rest`. `token` null: none is shown. */
   open(server, scene, token) {
     this.worker.postMessage({kind: 'open', server, scene, token});
+  }
+
+  /** Disconnects until the next `open`: the server sends nothing, and nothing is asked of it. */
+  rest() {
+    this.connected = false;
+    this.worker.postMessage({kind: 'rest'});
   }
 
   /** Does not wait any longer before the next attempt. */

@@ -1,9 +1,10 @@
 /**
  * The connection, off the page's thread: socket, decoding and reconnecting (all of them protocol/clients/js), and what a page
- * needs beside: the first scene's name, a plain word when there is no such scene, a pulse.
+ * needs beside: a plain word when there is no such scene, a pulse.
  *
  * From the page:
- *   {kind: 'open', server, scene, token}   connect; scene null: the first the server lists; token null: none
+ *   {kind: 'open', server, scene, token}   connect; token null: none
+ *   {kind: 'rest'}                  disconnect, and wait for another 'open'
  *   {kind: 'retry'}                 do not wait any longer
  *   {kind: 'request', key, message}
  *   {kind: 'taken'}                 the last frame has been taken: only then comes the next
@@ -13,15 +14,16 @@
  *   {kind: 'state', state: 'lost', reason, retryMs}      tries again by itself
  *   {kind: 'state', state: 'refused', reason, scenes}    there is no such scene; waits for another 'open'
  *   {kind: 'state', state: 'locked', reason}             a token is needed, or another; waits for another 'open'
+ *   {kind: 'state', state: 'resting'}                    as asked
  *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}, or {op: 'surface', scene, obstacle,
  *                                   surface}: what one of the scene's meshes looks like
  *   {kind: 'reply', key, message | error}
  *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
  */
-import {backoff, bearer, WeftClient} from '../protocol/weft.js';
+import {WeftClient} from '../protocol/weft.js';
+import {kUnknownToken, kNoToken, listScenes} from './scenes.js';
 
 const kBeatMs = 5000;  // between two pings
-const kListMs = 4000;  // longest wait for the list of scenes
 
 /** The platform's socket, counting what comes. */
 class CountingSocket extends WebSocket {
@@ -36,7 +38,6 @@ let server = null;
 let scene = null;
 let token = null;
 let client = null;       // whatever an older one says is ignored
-let waiting = null;      // timer of a wait before the list of scenes is asked for again
 let waits = false;       // between attempts, so that 'retry' means something
 let taken = () => {};
 
@@ -45,6 +46,9 @@ self.addEventListener('message', ({data}) => {
     case 'open':
       ({server, scene, token} = data);
       open();
+      break;
+    case 'rest':
+      rest();
       break;
     case 'retry':
       if (waits) open();
@@ -58,10 +62,9 @@ self.addEventListener('message', ({data}) => {
   }
 });
 
-async function open(attempt = 0) {
-  clearTimeout(waiting);
+function open() {
   client?.close();
-  const mine = (client = new WeftClient(`${server}/v1/scenes/${encodeURIComponent(scene ?? '')}`, {
+  const mine = (client = new WeftClient(`${server}/v1/scenes/${encodeURIComponent(scene)}`, {
     WebSocket: CountingSocket,
     client: 'weft page',
     token: token ?? undefined,
@@ -77,42 +80,22 @@ async function open(attempt = 0) {
   }));
   waits = false;
   tell('connecting');
-  if (scene === null) return chooseFirst(mine, attempt);
   mine.open().catch(() => {});  // fails only by close(), which is ours
 }
 
-/** Asks for the list of scenes and opens the first; as long as there is no answer, again and again. */
-async function chooseFirst(mine, attempt) {
-  const {scenes, locked} = await listScenes();
-  if (mine !== client) return;
-  if (locked) {
-    lock(mine);
-  } else if (scenes?.length) {
-    scene = scenes[0].name;
-    open();
-  } else {
-    const delay = backoff(attempt);
-    lost(delay, `No list of scenes from ${new URL(server).host}.`);
-    waiting = setTimeout(open, delay, attempt + 1);
-  }
-}
-
-/** The scenes, if they can be had: not of a server that lets no page of another origin read them; and whether a token is in want. */
-async function listScenes() {
-  try {
-    const address = `${server.replace(/^ws/, 'http')}/v1/scenes`;
-    const answer = await fetch(address, {signal: AbortSignal.timeout(kListMs), headers: bearer(token)});
-    return {scenes: answer.ok ? (await answer.json()).scenes : null, locked: answer.status === 400 || answer.status === 401};
-  } catch {
-    return {scenes: null, locked: false};
-  }
+/** Until another 'open' nothing is received, sent or tried. */
+function rest() {
+  client?.close();
+  waits = false;
+  taken();
+  tell('resting');
 }
 
 /** Nothing is tried any more until the page gives another token. */
 function lock(mine) {
   mine.close();
   waits = false;
-  tell('locked', {reason: token ? 'This server does not know that token.' : 'This server asks for a token.'});
+  tell('locked', {reason: token ? kUnknownToken : kNoToken});
 }
 
 /** Asks for what the scene's meshes look like. One that does not come is not drawn. */
@@ -133,8 +116,8 @@ async function follow(mine, state, {code, error, delay}) {
   } else if (state === 'waiting' && error) {
     lost(delay, `No answer from ${new URL(server).host}.`);
     // A socket does not say why it was refused; the list does.
-    const {scenes, locked} = await listScenes();
-    if (mine !== client || mine.connected) return;
+    const {scenes, locked} = await listScenes(server, token);
+    if (mine !== client || mine.connected || !waits) return;
     if (locked) return lock(mine);
     if (!scenes || scenes.some(({name}) => name === scene)) return;
     mine.close();

@@ -9,10 +9,11 @@ function belongsToControl(target, key) {
  * Keys of the page.
  * @param {import('./camera_rig.js').CameraRig} rig
  * @param {Record<string, () => void>} shortcuts by key, lower case
+ * @param {() => boolean} active whether the keys mean anything now
  */
-export function listenToKeys(rig, shortcuts) {
+export function listenToKeys(rig, shortcuts, active) {
   addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || belongsToControl(event.target, event.key)) return;
+    if (!active() || event.ctrlKey || event.metaKey || event.altKey || belongsToControl(event.target, event.key)) return;
     const shortcut = shortcuts[event.key.toLowerCase()];
     if (shortcut && event.repeat) return;
     if (shortcut) shortcut();

@@ -22,14 +22,17 @@ export class Loupe {
     this.centre = null;
   }
 
-  /** @param {number[]} centre of the cloth @param {number} extent its larger side, m */
-  lookAt(centre, extent) {
+  /** @param {number[]|null} centre of the cloth, null for none @param {number} extent its larger side, m */
+  lookAt(centre, extent = 0) {
     this.centre = centre;
     this.extent = extent;
   }
 
   draw(renderer, view) {
-    if (!this.centre) return;
+    if (!this.centre) {
+      this.place.hidden = true;
+      return;
+    }
     const distance = view.position.distanceTo(new Vector3(...this.centre));
     const seen = 2 * distance * Math.tan((view.fov * Math.PI) / 360);  // height of the picture at the cloth, m
     const shown = kMargin * this.extent;

@@ -5,6 +5,8 @@ const kThreads = 64;
 const kRepeatMetres = 0.4;
 const kPixelsPerThread = 16;
 
+const kDyes = {warp: [44, 88, 148], weft: [70, 116, 176], stripe: [246, 236, 214]};  // sRGB
+
 /** Warp threads (they run down the cloth) of another colour: a group of three stripes in each repeat. */
 const isStripe = (thread) => thread < 2 || (thread >= 4 && thread < 10) || (thread >= 12 && thread < 14);
 
@@ -24,13 +26,19 @@ function weave(u, v) {
   return {height: Math.max(warp, weft), isWarp: warp > weft};
 }
 
+let drawn = null;
+
 /**
- * Draws the fabric: its colour, and the bumps of its threads. Texture coordinates are metres.
- * @param {{warp: number[], weft: number[], stripe: number[]}} colours sRGB, 0..255
+ * The fabric of all cloths of a page: its colour, and the bumps of its threads. Texture coordinates are metres.
  * @param {number} anisotropy the graphics card's best filter for slanted views
  * @returns {{map: CanvasTexture, bumpMap: CanvasTexture}}
  */
-export function weaveTextures(colours, anisotropy) {
+export function weaveTextures(anisotropy) {
+  drawn ??= drawTextures(kDyes, anisotropy);
+  return drawn;
+}
+
+function drawTextures(colours, anisotropy) {
   const size = kThreads * kPixelsPerThread;
   const colour = new ImageData(size, size);
   const bump = new ImageData(size, size);

@@ -28,7 +28,7 @@ export class WindArrow {
       new RingGeometry(0.72, 0.76, 64).rotateX(-Math.PI / 2),
       new MeshBasicMaterial({color: 0x8b95a7, transparent: true, opacity: 0.7, side: DoubleSide, depthWrite: false}));
     this.plate = new Mesh(
-      new CircleGeometry(1, 96), new MeshBasicMaterial({transparent: true, opacity: 0.86, depthWrite: false, toneMapped: false}));
+      new CircleGeometry(1, 96), new MeshBasicMaterial({transparent: true, opacity: 0.92, depthWrite: false, toneMapped: false}));
     this.plate.renderOrder = -1;
     this.dark = matchMedia('(prefers-color-scheme: dark)');
     const key = new DirectionalLight(0xffffff, 2.5);

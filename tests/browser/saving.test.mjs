@@ -1,0 +1,89 @@
+// What a viewer saves of what is seen: a picture, a video, a model.
+import assert from 'node:assert/strict';
+import {before, test} from 'node:test';
+import {hide, openScene, pause, startServer, stats, until} from './harness.mjs';
+
+let server, page, witness;
+before(async () => {
+  server = await startServer(['zheng2020-ball']);
+  ({page, witness} = await openScene(server, 'zheng2020-ball', {deviceScaleFactor: 0.5}));
+  await until(page, () => weft.stats.balls.length > 0);
+});
+
+/** What a click has the page save: the file's name and bytes. */
+async function saved(click) {
+  const [download] = await Promise.all([page.waitForEvent('download'), click()]);
+  const parts = [];
+  for await (const part of await download.createReadStream()) parts.push(part);
+  return {name: download.suggestedFilename(), bytes: Buffer.concat(parts)};
+}
+
+test('a video of what moves: begun and ended by the button, which tells how long it is', async () => {
+  await page.click('#record');
+  await page.waitForFunction(() => document.getElementById('record').textContent === 'Stop 0:01');
+  const {name, bytes} = await saved(() => page.click('#record'));
+  assert.match(name, /^weft-zheng2020-ball-\d+\.\d\ds\.webm$/);
+  assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3);  // EBML, of which WebM is made
+  assert.ok(bytes.includes('webm'));
+  assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
+  await page.waitForFunction(() => document.getElementById('record').textContent === 'Record');
+});
+
+test('hidden, a recording ends, and is saved', async () => {
+  await page.click('#record');
+  await page.waitForFunction(() => document.getElementById('record').textContent.startsWith('Stop'));
+  const {name} = await saved(() => hide(page, true));
+  assert.match(name, /\.webm$/);
+  await hide(page, false);
+  await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
+});
+
+test('a picture as large as the canvas, of what is on it', async () => {
+  await pause(page);
+  const {name, bytes} = await saved(() => page.click('#save-picture'));
+  const {time} = (await stats(page)).lastFrame;
+  assert.equal(name, `weft-zheng2020-ball-${time.toFixed(2)}s.png`);
+  const {width, height, colours} = await page.evaluate(async (text) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (character) => character.charCodeAt(0))]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    pen.drawImage(image, 0, 0);
+    const pixels = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer);
+    return {width: image.width, height: image.height, colours: new Set(pixels).size};
+  }, bytes.toString('base64'));
+  assert.deepEqual([width, height], [450, 320]);
+  assert.ok(colours > 100, `${colours} colours`);
+});
+
+test('a model of cloth and ball where they are, with the fabric', async () => {
+  const {name, bytes} = await saved(() => page.click('#save-model'));
+  assert.match(name, /^weft-zheng2020-ball-\d+\.\d\ds\.glb$/);
+  assert.equal(bytes.toString('latin1', 0, 4), 'glTF');
+  assert.equal(bytes.readUInt32LE(8), bytes.length);
+  const jsonBytes = bytes.readUInt32LE(12);
+  const gltf = JSON.parse(bytes.toString('utf8', 20, 20 + jsonBytes));
+  const binary = bytes.subarray(28 + jsonBytes);
+  const {cloths: [cloth], balls: [ball]} = await stats(page);
+  const node = (wanted) => gltf.nodes.find((each) => each.name === wanted);
+
+  const primitive = gltf.meshes[node(cloth.name).mesh].primitives[0];
+  const accessor = gltf.accessors[primitive.attributes.POSITION];
+  const at = gltf.bufferViews[accessor.bufferView].byteOffset + (accessor.byteOffset ?? 0);
+  const place = node(cloth.name).translation ?? [0, 0, 0];
+  const positions = Array.from({length: 3 * accessor.count}, (_, i) => binary.readFloatLE(at + 4 * i) + place[i % 3]);
+  assert.equal(accessor.count, cloth.rows * cloth.cols);
+  const told = await page.evaluate(() => weft.positions());
+  const worst = Math.max(...told.map((value, i) => Math.abs(value - positions[i])));
+  assert.ok(worst < 1e-5, `a node is ${worst} m off`);
+  assert.equal(gltf.accessors[primitive.indices].count, 6 * cloth.faces);
+  assert.equal(gltf.images.length, 1);
+
+  const {translation = [0, 0, 0], scale} = node(`ball ${ball.ball}`);
+  translation.forEach((value, axis) => assert.ok(Math.abs(value - ball.position[axis]) < 1e-5, `ball at ${translation}, not at ${ball.position}`));
+  assert.ok(scale[0] > 0.89 * ball.radius && scale[0] <= ball.radius, `a ball of ${scale[0]} m`);  // drawn a little smaller: see BallsView
+});
+
+test('nothing was loaded from elsewhere, and the console is clean', () => {
+  const elsewhere = witness.requests.filter((url) => !['data:', 'blob:'].includes(new URL(url).protocol) && new URL(url).origin !== server.address);
+  assert.deepEqual(elsewhere, []);
+  assert.deepEqual(witness.errors, []);
+});
