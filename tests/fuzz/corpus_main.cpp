@@ -25,7 +25,7 @@ constexpr std::array kTargets{
     Named{"scenes", fuzz::scenes},         Named{"meshes", fuzz::meshes},
     Named{"requests", fuzz::requests},     Named{"gate", fuzz::gate},
     Named{"tokens", fuzz::tokens},         Named{"settings", fuzz::settings},
-    Named{"connection", fuzz::connection},
+    Named{"recordings", fuzz::recordings}, Named{"connection", fuzz::connection},
 };
 
 std::vector<fs::path> files_in(const fs::path& folder) {

@@ -20,6 +20,7 @@ Target gate;        ///< a viewer's WebSocket frames, in pieces
 Target connection;  ///< all that is sent on one connection: HTTP, WebSocket, messages
 Target tokens;      ///< the file of --tokens
 Target settings;    ///< the file of --config
+Target recordings;  ///< a file of --record
 
 inline std::string text_of(Input input) { return {input.begin(), input.end()}; }
 
