@@ -75,7 +75,12 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_flag("--validate", options->validate, "Makes every step again and compares all hashes");
   command
       ->add_option("--seek", options->seek, "Goes to this time since the recording began, s; tells its hash")
-      ->check(CLI::NonNegativeNumber);
+      ->check([](const std::string& text) {
+        double seconds = -1;
+        const bool number = CLI::detail::lexical_cast(text, seconds);
+        constexpr double kMost = 1e9;
+        return number && seconds >= 0 && seconds <= kMost ? std::string() : text + ": allowed: 0..1e9 (s)";
+      });
   options->threads.add_to(*command);
   command->callback([options, &exit_code] { exit_code = replay(*options); });
 }

@@ -81,6 +81,7 @@ void Host::start(scene::Scene scene, std::optional<long> nodes) {
 
 void Host::restore_made() {
   const std::lock_guard lock(mutex_);
+  remove_gone(folders_.data);
   for (const KeptScene& kept : made_scenes_in(folders_.data)) {
     scene::Result read = scene::parse(kept.document, kept.name);
     auto* scene = std::get_if<scene::Scene>(&read);
@@ -92,6 +93,8 @@ void Host::restore_made() {
 
 std::optional<NotMade> Host::refusal(const std::string& name, long nodes) const {
   if (taken(name)) return NotMade{Why::exists, "there is a scene named " + name + " already", {}};
+  if (!folders_.data.empty() && std::filesystem::exists(folders_.data / name))
+    return NotMade{Why::exists, "there are data of a scene named " + name + " that is not served now", {}};
   std::size_t made = 0;
   long used = 0;
   for (const Served& scene : scenes_) {
@@ -132,10 +135,13 @@ std::optional<NotMade> Host::make(const std::string& name, std::string_view docu
   }
   if (!first_step_within(simulation, making_.work))
     return NotMade{Why::too_costly, "a step of the scene takes more work than a client's may", {}};
-  const std::lock_guard lock(mutex_);
-  if (auto no = refusal(name, nodes)) return no;  // another client was faster
-  ending_.erase(name);
-  start(std::move(scene), nodes);
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto no = refusal(name, nodes)) return no;  // another client was faster
+    ending_.erase(name);
+    start(std::move(scene), nodes);
+  }
+  if (!folders_.data.empty()) wait_until_kept(folders_.data / name);
   return std::nullopt;
 }
 
@@ -149,6 +155,7 @@ Host::Ending Host::end(std::string_view name) {
   found->runner->request_stop();
   std::erase_if(ending_, [](const auto& each) { return each.second.expired(); });
   ending_[found->runner->name()] = found->runner;
+  if (!folders_.data.empty()) set_gone(folders_.data / found->runner->name());
   scenes_.erase(found);
   return Ending::ended;
 }

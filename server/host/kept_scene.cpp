@@ -13,6 +13,8 @@ std::string LiveScene::save_service() const {
   state.waiting_steps = waiting_steps_;
   state.effects = effects_;
   state.effects_off = effects_off_;
+  state.materials = materials_;
+  state.recompose = recompose_;
   state.wish = quality_.wished();
   state.put = put_;
   state.usual_work = usual_work_;
@@ -40,12 +42,26 @@ void LiveScene::go_on_from(std::string_view state, std::string_view service, Tim
   for (PutBody& body : put_) body.viewer = 0;  // nobody who is here
   usual_work_ = std::move(then.usual_work);
   for (HeldSeat& seat : then.held) lost_.push_back({std::move(seat), until});
-  std::transform(simulation_.cloths().begin(), simulation_.cloths().end(), materials_.begin(),
-                 [](const Cloth<float>& cloth) { return cloth.description().material; });
+  if (then.materials.size() == materials_.size()) materials_ = std::move(then.materials);
+  recompose_ = then.recompose;
+  release_unheld();
   quality_.go_on_with(then.wish);
   study_outdated();
   find_bounds();
   state_changed();
+}
+
+void LiveScene::release_unheld() {
+  std::vector<GrabId> all;
+  for (const Cloth<float>& cloth : simulation_.cloths())
+    for (const Grab& grab : cloth.grabs()) all.push_back(grab.id);
+  for (const BodyHand& hand : simulation_.colliders().hands()) all.push_back(hand.id);
+  for (const GrabId grab : all) {
+    const bool held = std::any_of(lost_.begin(), lost_.end(), [&](const LostSeat& seat) {
+      return std::find(seat.grabs.begin(), seat.grabs.end(), grab) != seat.grabs.end();
+    });
+    if (!held) recorded_.run(command::Release{grab});
+  }
 }
 
 }  // namespace weft::host

@@ -161,8 +161,6 @@ class LiveScene {
   void use_chosen_integrator();
   std::optional<protocol::Error> missing_effect(const std::string& effect) const;
   bool is_off(std::string_view effect) const;
-  /// What the next step is composed of anew. Effects wake all there is, a material only its cloth.
-  enum class Recompose { nothing, materials, effects };
   /// The effects that are on, their parameters or the materials are others now.
   void composition_changed(Recompose what);
   void recompose(Recompose what);
@@ -170,6 +168,8 @@ class LiveScene {
   void study_outdated();
   /// All that commands may change of what is studied, to be compared.
   nlohmann::json composition() const;
+  /// Hands that nobody is known to hold with let go: what was written last is a command without its viewer.
+  void release_unheld();
   void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "cloth/world/state.h"
@@ -18,7 +19,7 @@ namespace weft::host {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char *kExtension = ".weftrec", *kSetAside = ".aside";
+constexpr const char *kExtension = ".weftrec", *kSetAside = ".aside", *kGone = ".gone";
 
 /// Files of recordings in a folder, the oldest first.
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -31,12 +32,20 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// The file, or where there is one already, one beside it with a number.
+/// The file, or where there is one already, NAME.2.weftrec and so on: no scene has such a name.
 fs::path free_name(const fs::path& file) {
   fs::path free = file;
   for (int number = 2; fs::exists(free); ++number)
-    free = file.parent_path() / (file.stem().string() + "-" + std::to_string(number) + kExtension);
+    free = file.parent_path() / (file.stem().string() + "." + std::to_string(number) + kExtension);
   return free;
+}
+
+/// Where a folder goes that is to be removed: a name that no scene has.
+fs::path gone(const fs::path& folder) {
+  std::string name(1, '.');
+  name += folder.filename().string();
+  name += kGone;
+  return folder.parent_path() / name;
 }
 
 std::uint64_t number_of(const fs::path& file) {
@@ -57,13 +66,13 @@ SceneLog::SceneLog(const scene::Scene& scene, LogPlaces places, SceneMetrics& me
       next_recorded_state_(recorded_steps_) {}
 
 void SceneLog::begin(LiveScene& live) {
-  if (!places_.data.empty()) restore(live);
+  const bool restored = !places_.data.empty() && restore(live);
   if (!places_.record.empty()) {
     record_writer_ = writer("recording", 0);
     record_writer_->begin(free_name(places_.record));
     recording_ = recorder(*record_writer_, false);
     // One that goes on from data does not begin at the scene's own beginning.
-    if (live.simulation().step_count() > 0) recording_->add_state(live.simulation());
+    if (restored) recording_->add_state(live.simulation());
     live.record({recording_});
     recording_->flush();
   }
@@ -89,7 +98,10 @@ void SceneLog::tend(LiveScene& live, bool served) {
     recording_->add_state(live.simulation());
     next_recorded_state_ += recorded_steps_;
   }
+  // Not at each step, so that one entry stands for many.
+  if (!served && std::chrono::steady_clock::now() < record_due_) return;
   recording_->flush();
+  record_due_ = std::chrono::steady_clock::now() + kRecordPeriod;
 }
 
 void SceneLog::end(LiveScene& live) {
@@ -104,9 +116,11 @@ void SceneLog::forget() {
   data_.reset();
   data_writer_.reset();
   if (places_.data.empty()) return;
-  std::error_code fault;
-  fs::remove_all(places_.data, fault);
-  if (fault) spdlog::error("scene {}: {}: {}", scene_.name, places_.data.string(), fault.message());
+  for (const fs::path& folder : {places_.data, gone(places_.data)}) {
+    std::error_code fault;
+    fs::remove_all(folder, fault);
+    if (fault) spdlog::error("scene {}: {}: {}", scene_.name, folder.string(), fault.message());
+  }
 }
 
 void SceneLog::begin_file(LiveScene& live) {
@@ -148,15 +162,16 @@ std::unique_ptr<record::LogWriter> SceneLog::writer(const char* what, std::size_
       kept);
 }
 
-void SceneLog::restore(LiveScene& live) {
+bool SceneLog::restore(LiveScene& live) {
   std::vector<fs::path> files = files_in(places_.data);
   if (!files.empty()) next_file_ = number_of(files.back()) + 1;
   for (; !files.empty(); files.pop_back()) {
-    if (go_on_from(live, files.back())) return;
+    if (go_on_from(live, files.back())) return true;
     std::error_code fault;
     fs::rename(files.back(), files.back().string() + kSetAside, fault);
     if (fault) spdlog::error("scene {}: {}: {}", scene_.name, files.back().string(), fault.message());
   }
+  return false;
 }
 
 bool SceneLog::go_on_from(LiveScene& live, const fs::path& file) {
@@ -185,6 +200,29 @@ bool SceneLog::go_on_from(LiveScene& live, const fs::path& file) {
     spdlog::error("scene {}: {} is set aside: {}", scene_.name, file.string(), fault.what());
     return false;
   }
+}
+
+void wait_until_kept(const fs::path& folder) {
+  constexpr std::chrono::milliseconds kLongest(2000), kStep(5);
+  const auto until = std::chrono::steady_clock::now() + kLongest;
+  while (files_in(folder).empty() && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(kStep);
+}
+
+void set_gone(const fs::path& folder) {
+  std::error_code fault;
+  fs::rename(folder, gone(folder), fault);
+  if (fault && fault != std::errc::no_such_file_or_directory)
+    spdlog::error("{}: {}", folder.string(), fault.message());
+}
+
+void remove_gone(const fs::path& data) {
+  std::error_code none;
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::directory_iterator(data, none)) {
+    if (entry.path().extension() == kGone) all.push_back(entry.path());
+  }
+  for (const fs::path& folder : all) fs::remove_all(folder, none);
 }
 
 std::vector<KeptScene> made_scenes_in(const fs::path& data) {

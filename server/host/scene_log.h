@@ -33,6 +33,8 @@ class SceneLog {
  public:
   static constexpr auto kStatePeriod = std::chrono::seconds(1);
   static constexpr std::size_t kKept = 3;
+  /// Between what is written of a recording while nobody commands anything.
+  static constexpr auto kRecordPeriod = std::chrono::milliseconds(250);
   /// Simulated, from one state in a recording to the next, s: it is gone to a time in it by way of these.
   static constexpr double kRecordedStates = 10;
 
@@ -50,7 +52,8 @@ class SceneLog {
   void forget();
 
  private:
-  void restore(LiveScene& live);
+  /// False if there was nothing to go on from.
+  bool restore(LiveScene& live);
   bool go_on_from(LiveScene& live, const std::filesystem::path& file);
   void begin_file(LiveScene& live);
   std::shared_ptr<record::Recorder> recorder(record::LogWriter& writer, bool of_data) const;
@@ -64,7 +67,7 @@ class SceneLog {
   const std::uint64_t recorded_steps_;  ///< kRecordedStates
   std::uint64_t next_recorded_state_;
   std::uint64_t next_file_ = 1;
-  std::chrono::steady_clock::time_point state_due_{};
+  std::chrono::steady_clock::time_point state_due_{}, record_due_{};
   std::string service_;         ///< as it was written last
   std::uint64_t steps_at_ = 0;  ///< of the simulation, when the last state was written
   bool changed_ = false;        ///< by commands, since then
@@ -75,5 +78,11 @@ struct KeptScene {
   std::string name, document;
 };
 std::vector<KeptScene> made_scenes_in(const std::filesystem::path& data);
+/// Returns when a scene's folder of data has a state, or after 2 s, as on a disk that is full.
+void wait_until_kept(const std::filesystem::path& folder);
+/// From now on it is no scene's, whatever happens; its SceneLog removes it (forget()).
+void set_gone(const std::filesystem::path& folder);
+/// What a process that was killed did not come to remove.
+void remove_gone(const std::filesystem::path& data);
 
 }  // namespace weft::host

@@ -110,7 +110,7 @@ void SceneRunner::run(const std::stop_token& stop) {
       live_->release_lost(Clock::now());
       study_if_wanted();
       const bool stepped = step_if_due();
-      // Before anybody is told: what was seen or answered is not forgotten.
+      // Before the frame goes out, so that hardly anything that was seen is forgotten.
       if (log_) log_->tend(*live_, !tasks.empty());
       // Before the frame goes out: who has seen it must not be told an older step.
       frame_ = live_->simulation().step_count();

@@ -33,6 +33,9 @@ struct HeldSeat {
   }
 };
 
+/// What the next step is composed of anew. Effects wake all there is, a material only its cloth.
+enum class Recompose { nothing, materials, effects };
+
 /// What a scene being served has beside its simulation and its viewers, written down with its state.
 struct ServiceState {
   std::uint32_t epoch = 1;
@@ -40,14 +43,16 @@ struct ServiceState {
   int waiting_steps = 0;
   std::vector<EffectDescription> effects;  ///< the scene's, with the parameters that they have now
   std::vector<std::string> effects_off;
+  std::vector<Material> materials;  ///< of the cloths, from the next step on
+  Recompose recompose = Recompose::nothing;
   scene::Quality wish;
   std::vector<PutBody> put;
   std::vector<double> usual_work;
   std::vector<HeldSeat> held;  ///< by all who hold anything
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(epoch, paused, waiting_steps, effects, effects_off, wish.max_error, wish.max_ms, put, usual_work,
-            held);
+    archive(epoch, paused, waiting_steps, effects, effects_off, materials, recompose, wish.max_error,
+            wish.max_ms, put, usual_work, held);
   }
 };
 

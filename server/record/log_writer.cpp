@@ -13,6 +13,7 @@ namespace weft::record {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr const char* kBeside = ".new";
 
 [[noreturn]] void fail(const fs::path& file) {
   throw std::system_error(errno, std::generic_category(), file.string());
@@ -76,6 +77,8 @@ void LogWriter::run(const std::stop_token& stop) {
     } catch (const std::exception& fault) {
       given_up_ = true;
       close();
+      std::error_code none;
+      if (!beside_.empty()) fs::remove(std::exchange(beside_, {}), none);  // what there is of it takes room
       if (!std::exchange(failing_, true)) reports_.failing(fault.what());
     }
   }
@@ -102,12 +105,13 @@ void LogWriter::carry_out(const Task& task) {
 
 void LogWriter::open(const std::string& first_bytes) {
   fs::create_directories(file_.parent_path().empty() ? "." : file_.parent_path());
-  const fs::path beside = file_.string() + ".new";
-  descriptor_ = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) fail(beside);
+  beside_ = file_.string() + kBeside;
+  descriptor_ = ::open(beside_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(beside_);
   write(descriptor_, first_bytes);
-  sync(descriptor_, beside);
-  if (::rename(beside.c_str(), file_.c_str()) != 0) fail(file_);
+  sync(descriptor_, beside_);
+  if (::rename(beside_.c_str(), file_.c_str()) != 0) fail(file_);
+  beside_.clear();
   // That it has this name lasts, too.
   const fs::path folder = file_.parent_path().empty() ? "." : file_.parent_path();
   const int parent = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -126,11 +130,13 @@ void LogWriter::write(int descriptor, const std::string& bytes) {
 
 void LogWriter::remove_old() const {
   if (kept_ == 0) return;
-  std::vector<fs::path> all;
+  std::vector<fs::path> all, beside;
   for (const auto& entry : fs::directory_iterator(file_.parent_path())) {
     if (entry.path().extension() == file_.extension()) all.push_back(entry.path());
+    if (entry.path().extension() == kBeside) beside.push_back(entry.path());
   }
-  std::sort(all.begin(), all.end());  // their names count
+  for (const fs::path& file : beside) fs::remove(file);  // of a process that was killed
+  std::sort(all.begin(), all.end());                     // their names count
   for (std::size_t i = 0; i + kept_ < all.size(); ++i) fs::remove(all[i]);
 }
 

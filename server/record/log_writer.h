@@ -53,8 +53,9 @@ class LogWriter {
   std::size_t waiting_bytes_ = 0;  ///< guarded by mutex_
   bool overrun_ = false;           ///< guarded by mutex_: too much waits, until the next file begins
   // The thread's own.
-  std::filesystem::path file_;  ///< that was begun
-  int descriptor_ = -1;         ///< of it, once it is there
+  std::filesystem::path file_;    ///< that was begun
+  std::filesystem::path beside_;  ///< where its first bytes are written; empty once it is there
+  int descriptor_ = -1;           ///< of it, once it is there
   bool given_up_ = false;
   bool failing_ = false;  ///< as was reported
   std::jthread thread_;   // last: it uses all of the above

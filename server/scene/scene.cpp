@@ -45,7 +45,8 @@ Result read_text(std::string_view text, std::string_view name, const SceneFolder
       read_scene(document.tree, name, folder, std::move(document.problems), std::move(document.overflows));
   if (auto* scene = std::get_if<Scene>(&result)) {
     scene->document = document.tree.dump();
-    if (folder) scene->folder = std::filesystem::absolute(*folder).string();
+    // A file that is named alone is in the present folder.
+    if (folder) scene->folder = std::filesystem::absolute(folder->empty() ? "." : *folder).string();
   }
   return result;
 }

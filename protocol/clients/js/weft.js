@@ -594,6 +594,8 @@ export class WeftClient extends Commands {
   #newest = null;
   #delivering = false;
   #camera = null;
+  /** The `scene` before the connection broke. @type {any} */
+  #before = null;
   #held = new Set();   // ids of grabs that this client has not let go of
   #quickestPing = Infinity;
   #clockOffset = NaN;  // of the server's clock to this one's, ms
@@ -667,6 +669,7 @@ export class WeftClient extends Commands {
   /** Leaves the scene and joins another, also for reconnections. Its `scene` message and frames follow. @param {string} scene */
   async joinScene(scene) {
     const ok = await super.joinScene(scene);
+    this.#held.clear();
     this.#url = new URL(encodeURIComponent(scene), this.#url).href;
     return ok;
   }
@@ -726,7 +729,7 @@ export class WeftClient extends Commands {
     const socket = new Socket(this.#url, token ? [SUBPROTOCOL, `weft.token.${token}`] : SUBPROTOCOL);
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
-    const before = this.scene;
+    this.#before = this.scene ?? this.#before;
     this.welcome = this.scene = this.#newest = null;
     this.#acks = false;
     this.#quickestPing = Infinity;
@@ -755,6 +758,8 @@ export class WeftClient extends Commands {
       if (frames || client) await this.send('hello', { client, caps: frames ? ['flow.ack'] : [], window: frames || undefined });
       // A camera refused then is refused now; the connection is good all the same.
       if (this.#camera) await super.camera(this.#camera).catch(() => {});
+      const before = this.#before;
+      this.#before = null;
       if (before?.seat && before.name === this.scene.name) await this.#resume(before.seat);
       if (socket.readyState !== 1) throw new WeftError('closed', 'closed by the server');
     } catch (error) {
@@ -847,6 +852,7 @@ export class WeftClient extends Commands {
     }
     if (message.op === 'welcome') this.welcome = message;
     if (message.op === 'scene') this.scene = message;
+    if (message.op === 'event' && message.kind === 'reset') this.#held.clear();
     this.#options.onmessage?.(message);
   }
 

@@ -341,11 +341,13 @@ class Client:
         self._returning: typing.Optional[asyncio.Task] = None  # while the connection is made again
         self._camera: typing.Optional[dict] = None  # as it was told last
         self._greeted_once = False
+        self._before: typing.Optional[dict] = None  # the `scene` before the connection broke
         self._held: typing.Set[int] = set()         # ids of grabs that this client has not let go of
 
     async def _open(self):
         """Connects: greeted, the scene described, `hello` answered, and where it was before as far as that can be."""
-        before, self.welcome, self.scene, self._lost, self._acks = self.scene, None, None, None, False
+        self._before = self.scene or self._before
+        self.welcome, self.scene, self._lost, self._acks = None, None, None, False
         self._quickest_ping, self._clock_offset_ms = math.inf, math.nan
         self._greeted.clear()
         try:
@@ -359,6 +361,7 @@ class Client:
         if self._camera:
             with contextlib.suppress(WeftError):  # refused then, it is refused now
                 await self.send("camera", **self._camera)
+        before, self._before = self._before, None
         if self._held and before and before.get("seat") and before["name"] == self.scene["name"]:
             await self._resume(before["seat"])
 
@@ -434,6 +437,8 @@ class Client:
             else:
                 future.set_result(message)
             return
+        if op == "event" and message["kind"] == "reset":
+            self._held.clear()
         if op in ("welcome", "scene", "stats"):
             setattr(self, op, message)
         if self.welcome and self.scene:
@@ -486,6 +491,9 @@ class Client:
                 self._held.discard(members["grab"])
         if op == "camera":
             self._camera = members
+        if op == "scene.join":
+            self._url = urllib.parse.urljoin(self._url, urllib.parse.quote(members["scene"], safe=""))
+            self._held.clear()
         if "grab" in answer:
             self._held.add(answer["grab"])
         return answer
