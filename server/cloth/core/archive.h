@@ -39,6 +39,7 @@ class StateReader : public cereal::InputArchive<StateReader, cereal::AllowEmptyC
       : cereal::InputArchive<StateReader, cereal::AllowEmptyClassElision>(this), rest_(bytes) {}
   void read(void* data, std::size_t size) {
     if (size > rest_.size()) throw BadState("the state ends too early");
+    if (size == 0) return;  // an empty list has no address
     std::memcpy(data, rest_.data(), size);
     rest_.remove_prefix(size);
   }
