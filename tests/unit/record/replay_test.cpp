@@ -136,7 +136,7 @@ TEST(Replay, TellsWhereAnotherStateIsReached) {
   }
   ASSERT_TRUE(replay.divergence());
   EXPECT_EQ(replay.divergence()->step, 120u);
-  EXPECT_EQ(replay.divergence()->recorded == replay.divergence()->found, false);
+  EXPECT_NE(replay.divergence()->recorded, replay.divergence()->found);
   EXPECT_EQ(replay.hashes(), 1u);
 }
 
