@@ -93,6 +93,19 @@ export async function skip(server, scene, seconds) {
   viewer.close();
 }
 
+/**
+ * Starts a scene again and leaves it paused after so many steps: the same state on any machine.
+ * @returns {Promise<number>} its time
+ */
+export async function pauseAfter(server, scene, steps) {
+  const viewer = await connect(`ws://127.0.0.1:${server.port}/v1/scenes/${scene}`, {WebSocket, timeout: kPatienceMs});
+  await viewer.pause();
+  await viewer.reset();
+  await viewer.step(steps);
+  viewer.close();
+  return steps * viewer.scene.dt;
+}
+
 /** Waits until a condition, evaluated in the page, holds; says what the page knew when it never did. */
 export async function until(page, condition, argument) {
   try {

@@ -152,7 +152,7 @@ class MadeScenes(unittest.IsolatedAsyncioTestCase):
 
     async def test_others_are_answered_while_a_scene_is_made(self):
         server = self.start("--made-work", 1e9, "--made-nodes", 10**7)
-        heavy = self.changed(integrator={"type": "xpbd", "substeps": 300 if SANITIZED else 3000})  # a step of a second or so
+        heavy = self.changed(integrator={"type": "xpbd", "substeps": 2000 if SANITIZED else 10000})  # making it takes a second or more
         heavy["cloths"][0]["levels"] = {"min": 7, "max": 7}
         async with await weft.connect(server.url("still"), timeout=GENEROUS) as client:
             making = asyncio.create_task(asyncio.to_thread(self.ask, server, "PUT", "heavy", heavy))
@@ -162,7 +162,8 @@ class MadeScenes(unittest.IsolatedAsyncioTestCase):
                 answers += 1
                 await asyncio.sleep(0.02)
             self.assertEqual((await making)[0], 201)
-            self.assertGreater(answers, 10)
+            # Were they to wait for the making, there would be the one or two from before it began.
+            self.assertGreater(answers, 4)
 
 
 if __name__ == "__main__":
