@@ -8,7 +8,7 @@
 #include "cloth/core/grab_id.h"
 #include "cloth/core/vec3.h"
 #include "cloth/levels/level_policy.h"
-#include "cloth/levels/relevance.h"
+#include "cloth/levels/view_cone.h"
 #include "host/viewer.h"
 
 namespace weft::host {

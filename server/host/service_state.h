@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cloth/core/description.h"
 #include "cloth/core/grab_id.h"
 #include "cloth/shapes/solid.h"
+#include "cloth/world/description.h"
 #include "scene/scene.h"
 
 namespace weft::host {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 #include "protocol/message.h"
 
 namespace weft::host {

@@ -1,7 +1,7 @@
 #pragma once
 /// The numbers of each effect that scene files give and that may be changed while a scene runs, with their
 /// ranges: the one table for both.
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 #include "scene/parameter.h"
 
 namespace weft::scene {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft::scene {
 

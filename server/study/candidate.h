@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft::study {
 

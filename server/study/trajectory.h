@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft {
 template <class Real>

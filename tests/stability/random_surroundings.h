@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 #include "draw.h"
 
 namespace weft::stability {

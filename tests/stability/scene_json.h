@@ -1,7 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft::stability {
 

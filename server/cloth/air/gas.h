@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "cloth/core/description.h"
+#include "cloth/core/effect_description.h"
 #include "cloth/core/particles.h"
 #include "cloth/kernels/components.h"
 #include "cloth/sheet/seam.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "cloth/bodies/body_impulses.h"
-#include "cloth/core/description.h"
+#include "cloth/bodies/collider_description.h"
 #include "cloth/shapes/solid.h"
 
 namespace weft {

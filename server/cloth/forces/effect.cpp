@@ -1,10 +1,10 @@
 #include "cloth/forces/effect.h"
 
-#include "cloth/air/aerodynamics.h"
-#include "cloth/air/inflation.h"
-#include "cloth/air/paper_wind.h"
+#include "cloth/forces/aerodynamics.h"
 #include "cloth/forces/damping.h"
 #include "cloth/forces/gravity.h"
+#include "cloth/forces/inflation.h"
+#include "cloth/forces/paper_wind.h"
 
 namespace weft {
 namespace {
@@ -26,7 +26,7 @@ struct EffectMaker {
   Made operator()(const PlateBendingEffect&) const { return nullptr; }
   Made operator()(const StrainLimitEffect&) const { return nullptr; }
   Made operator()(const TearingEffect&) const { return nullptr; }
-  // The whole scene's: Layers.
+  // The whole scene's: ClothContact.
   Made operator()(const ClothContactEffect&) const { return nullptr; }
 };
 

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "cloth/air/gust_series.h"
-#include "cloth/core/description.h"
+#include "cloth/core/effect_description.h"
 #include "cloth/core/particles.h"
 #include "cloth/kernels/link_kernels.h"
+#include "cloth/sheet/cloth_description.h"
 #include "cloth/sheet/tear/torn_links.h"
 
 namespace weft {

@@ -4,6 +4,7 @@
 
 #include "cloth/guard/guard_event.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/integrator_description.h"
 
 namespace weft {
 

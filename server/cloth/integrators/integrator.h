@@ -5,6 +5,7 @@
 #include "cloth/contact/constraints/layer_contacts.h"
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/forces/effect.h"
+#include "cloth/integrators/integrator_description.h"
 #include "cloth/sheet/pins.h"
 #include "cloth/sheet/plate.h"
 #include "cloth/sheet/seam.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include "cloth/core/description.h"
 #include "cloth/core/particles.h"
+#include "cloth/sheet/cloth_description.h"
 #include "cloth/sheet/springs.h"
 
 namespace weft {

@@ -1,6 +1,6 @@
 #pragma once
 #include "cloth/core/particles.h"
-#include "cloth/levels/relevance.h"
+#include "cloth/shapes/bounding_sphere.h"
 
 namespace weft {
 

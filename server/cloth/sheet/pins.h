@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "cloth/core/description.h"
 #include "cloth/core/particles.h"
 #include "cloth/core/path.h"
 #include "cloth/shapes/solid.h"
+#include "cloth/sheet/cloth_description.h"
 #include "cloth/sheet/seam.h"
 
 namespace weft {

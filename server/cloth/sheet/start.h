@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "cloth/core/description.h"
 #include "cloth/core/particles.h"
+#include "cloth/sheet/cloth_description.h"
 
 namespace weft {
 

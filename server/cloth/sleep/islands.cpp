@@ -25,7 +25,7 @@ std::vector<bool> islands_at_rest(const std::vector<Sleeper>& sleepers) {
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     return std::make_pair(low(i), i) < std::make_pair(low(j), j);
   });
-  Islands islands(sleepers.size());
+  DisjointSets islands(sleepers.size());
   for (auto i = order.begin(); i != order.end(); ++i) {
     for (auto j = i + 1; j != order.end() && low(*j) <= sleepers[*i].box.max().x(); ++j) {
       if (sleepers[*i].box.intersects(sleepers[*j].box)) islands.join(*i, *j);

@@ -1,8 +1,7 @@
 #pragma once
-#include <numeric>
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/core/path.h"
 
 namespace weft {
 
@@ -38,22 +37,6 @@ class BodyRest {
   Pose began_;  ///< where the quiet time began
   int quiet_steps_ = 0;
   bool asleep_ = false;
-};
-
-/// Sets that are joined step by step (disjoint-set forest, path halving: Tarjan and van Leeuwen, 1984).
-class Islands {
- public:
-  /// Of one each.
-  explicit Islands(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  /// The one by which its island is known.
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { parent_[of(i)] = of(j); }
-
- private:
-  std::vector<std::size_t> parent_;
 };
 
 /// Something that moves, or may, where islands are looked for.

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cloth/air/air.h"
-#include "cloth/core/description.h"
 #include "cloth/core/particles.h"
 #include "cloth/shapes/solid.h"
 #include "cloth/sleep/islands.h"

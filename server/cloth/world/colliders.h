@@ -7,8 +7,8 @@
 
 #include "cloth/bodies/body_collision.h"
 #include "cloth/bodies/body_hand.h"
+#include "cloth/bodies/collider_description.h"
 #include "cloth/bodies/rigid_body.h"
-#include "cloth/core/description.h"
 #include "cloth/shapes/solid.h"
 #include "cloth/sleep/islands.h"
 

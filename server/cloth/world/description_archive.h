@@ -1,8 +1,8 @@
 #pragma once
 /// Descriptions that change while a scene runs, as they are written down (archive.h).
 #include "cloth/core/archive.h"
-#include "cloth/core/description.h"
 #include "cloth/levels/settle.h"
+#include "cloth/world/description.h"
 
 namespace weft {
 

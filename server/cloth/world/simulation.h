@@ -3,8 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/contact/layers.h"
 #include "cloth/world/cloth.h"
+#include "cloth/world/cloth_contact.h"
+#include "cloth/world/description.h"
 
 namespace weft {
 
@@ -51,7 +52,7 @@ class Simulation {
   std::vector<Cloth<Real>>& cloths() { return cloths_; }
   const Colliders& colliders() const { return colliders_; }
   /// nullptr where cloths pass through themselves.
-  const Layers<Real>* layers() const { return layers_.get(); }
+  const ClothContact<Real>* layers() const { return layers_.get(); }
   const Wind& wind() const { return air_.wind(); }
   Vec3 gravity() const { return gravity_; }
   /// Energies and strain, computed now: not part of a step.
@@ -156,7 +157,7 @@ class Simulation {
   Air air_;
   Colliders colliders_;
   std::vector<Cloth<Real>> cloths_;
-  std::unique_ptr<Layers<Real>> layers_;           ///< if the scene lists cloth_contact
+  std::unique_ptr<ClothContact<Real>> layers_;     ///< if the scene lists cloth_contact
   std::unique_ptr<BodyCollision> body_collision_;  ///< made when something may first meet
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;

@@ -44,7 +44,7 @@ void expect_same_obstacles(const SimulationDescription& a, const SimulationDescr
 
 template <class Real>
 template <class Archive>
-void Layers<Real>::serialize(Archive& archive, std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::serialize(Archive& archive, std::vector<Cloth<Real>>& cloths) {
   // Where a level has changed since the last step the next one lays it all out anew.
   bool lasts = laid_out(cloths);
   archive(lasts);

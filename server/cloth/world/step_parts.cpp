@@ -62,7 +62,7 @@ double parts_for_bodies(const Cloth<Real>& cloth, const std::vector<Solid>& soli
 }  // namespace
 
 template <class Real>
-int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layers,
+int step_parts(const std::vector<Cloth<Real>>& cloths, const ClothContact<Real>* layers,
                const std::vector<Solid>& solids, double time, double dt) {
   double parts = 1;
   if (layers != nullptr) parts = std::clamp(layers->cells_passed() * dt / kMostCells, 1.0, kMostForCells);
@@ -74,9 +74,9 @@ int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layer
   return static_cast<int>(std::ceil(parts - kRounding));
 }
 
-template int step_parts(const std::vector<Cloth<float>>&, const Layers<float>*, const std::vector<Solid>&,
-                        double, double);
-template int step_parts(const std::vector<Cloth<double>>&, const Layers<double>*, const std::vector<Solid>&,
-                        double, double);
+template int step_parts(const std::vector<Cloth<float>>&, const ClothContact<float>*,
+                        const std::vector<Solid>&, double, double);
+template int step_parts(const std::vector<Cloth<double>>&, const ClothContact<double>*,
+                        const std::vector<Solid>&, double, double);
 
 }  // namespace weft

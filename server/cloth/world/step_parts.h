@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "cloth/contact/layers.h"
 #include "cloth/world/cloth.h"
+#include "cloth/world/cloth_contact.h"
 
 namespace weft {
 
@@ -25,7 +25,7 @@ namespace weft {
 /// the cloth, those that may hit them, and the cloth where it touches them go at most a quarter of the body's
 /// inner radius, up to 4 parts.
 template <class Real>
-int step_parts(const std::vector<Cloth<Real>>& cloths, const Layers<Real>* layers,
+int step_parts(const std::vector<Cloth<Real>>& cloths, const ClothContact<Real>* layers,
                const std::vector<Solid>& solids, double time, double dt);
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #pragma once
 /// The three scenes in which the engines are compared. All: 2 m x 2 m, 0.1 kg/m2, 60 frames a second, 5 s.
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft::bench {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "cloth/core/description.h"
+#include "cloth/world/description.h"
 
 namespace weft::bench {
 

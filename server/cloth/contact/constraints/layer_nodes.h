@@ -15,9 +15,9 @@ struct LayerNodes {
   std::vector<Vec3> start;           ///< where the step began, m
   std::vector<Vec3> end;             ///< where it ends, or is expected to, m
   std::vector<Vec3> velocity;        ///< as the step began, m/s
-  std::vector<Vec3> acceleration;    ///< that lasts, of the last step but for layers (Layers), m/s2
+  std::vector<Vec3> acceleration;    ///< that lasts, of the last step but for layers (ClothContact), m/s2
   /// By which all but layers withstood other cloths' layers, m/s2: a mean of the steps before, of which each
-  /// counts half as much as the one after it (Layers).
+  /// counts half as much as the one after it (ClothContact).
   std::vector<Vec3> support;
   std::vector<double> inverse_mass;  ///< 1/kg; 0 where pinned, and for what is not a node
   std::vector<char> lies;            ///< went on lying on a solid as the last step ended

@@ -4,9 +4,9 @@
 namespace weft {
 
 /// Sees to it that no cloth passes through itself or another: after a step that began without intersections
-/// there are none, unless solids take back what it did (Layers). Features whose straight ways meet are given
-/// inelastic impulses along the normal, pair by pair; those that still meet become rigid impact zones, each
-/// of which goes on as the rigid body of its nodes' momentum and angular momentum, growing until nothing
+/// there are none, unless solids take back what it did (ClothContact). Features whose straight ways meet are
+/// given inelastic impulses along the normal, pair by pair; those that still meet become rigid impact zones,
+/// each of which goes on as the rigid body of its nodes' momentum and angular momentum, growing until nothing
 /// meets (Bridson, Fedkiw, Anderson, Robust Treatment of Collisions, Contact and Friction for Cloth
 /// Animation, 2002, sections 7.2 to 7.5; Provot 1997). A rigid move by less than half a turn, made straight,
 /// is affine and never singular, so that a zone cannot meet itself. As a last resort, which only rounding can

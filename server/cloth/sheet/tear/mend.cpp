@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cloth/sleep/islands.h"
+#include "cloth/core/disjoint_sets.h"
 
 namespace weft {
 namespace {
@@ -94,7 +94,7 @@ Found look_around(const TornLinks& torn, const Particles<Real>& fine, const Fiel
 void begin_flakes(const TornLinks& torn, std::vector<Place>& left, Field<char>& sound) {
   const Grid& grid = torn.grid();
   const auto index = [&](const Place& p) { return grid.index(p.row, p.col); };
-  Islands flakes(grid.size());
+  DisjointSets flakes(grid.size());
   for (const Place& p : left) {
     for (const Place& way : {kWays[0], kWays[1]}) {
       if (linked(torn, p, way)) flakes.join(index(p), index({p.row + way.row, p.col + way.col}));

@@ -3,7 +3,7 @@
 #include <deque>
 #include <limits>
 
-#include "cloth/sleep/islands.h"
+#include "cloth/core/disjoint_sets.h"
 
 namespace weft {
 namespace {
@@ -23,8 +23,8 @@ void for_each_link(const TornLinks& torn, Visit visit) {
 }
 
 /// By node.
-Islands pieces_of(const TornLinks& torn) {
-  Islands pieces(torn.grid().size());
+DisjointSets pieces_of(const TornLinks& torn) {
+  DisjointSets pieces(torn.grid().size());
   for_each_link(torn, [&](const Link&, std::size_t a, std::size_t b) { pieces.join(a, b); });
   return pieces;
 }
@@ -33,7 +33,7 @@ Islands pieces_of(const TornLinks& torn) {
 
 template <class Real>
 std::vector<double> piece_masses(const TornLinks& torn, const Particles<Real>& particles) {
-  Islands pieces = pieces_of(torn);
+  DisjointSets pieces = pieces_of(torn);
   const Grid& grid = torn.grid();
   std::vector<double> masses(grid.size(), 0.0);
   const auto for_each_node = [&](const auto& visit) {
@@ -51,7 +51,7 @@ std::vector<double> piece_masses(const TornLinks& torn, const Particles<Real>& p
 
 void part_pieces(const TornLinks& coarse, int level, Walls& walls) {
   const Grid& grid = coarse.grid();
-  Islands pieces = pieces_of(coarse);
+  DisjointSets pieces = pieces_of(coarse);
 
   const TornLinks fine = walls.at(level);
   std::vector<std::vector<std::size_t>> neighbours(fine.grid().size());

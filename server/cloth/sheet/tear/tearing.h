@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "cloth/core/description.h"
+#include "cloth/core/effect_description.h"
 #include "cloth/sheet/springs.h"
 
 namespace weft {

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "cloth/air/paper_wind.h"
 #include "cloth/forces/damping.h"
 #include "cloth/forces/gravity.h"
+#include "cloth/forces/paper_wind.h"
 #include "cloth/integrators/integrator.h"
 #include "effect_sheet.h"
 

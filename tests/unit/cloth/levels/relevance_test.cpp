@@ -1,5 +1,5 @@
 // Whether a sphere is in sight, against figures worked out by hand and against points of the cone itself.
-#include "cloth/levels/relevance.h"
+#include "cloth/levels/view_cone.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Walls, what they cut at each level, and how nodes go on from level to level beside them.
 #include <gtest/gtest.h>
 
+#include "cloth/core/disjoint_sets.h"
 #include "cloth/sheet/tear/mend.h"
 #include "cloth/sheet/tear/pieces.h"
 #include "cloth/sheet/tear/walls.h"
-#include "cloth/sleep/islands.h"
 #include "fixtures.h"
 #include "tears.h"
 
@@ -123,9 +123,9 @@ TEST(TornLinks, WholeFacesAreAllThatAreNotTorn) {
 }
 
 /// What hangs together.
-Islands pieces_of(const TornLinks& links) {
+DisjointSets pieces_of(const TornLinks& links) {
   const Grid& grid = links.grid();
-  Islands pieces(grid.size());
+  DisjointSets pieces(grid.size());
   each_node(grid, [&](int r, int c) {
     if (c + 1 < grid.cols && !links.torn(Link{r, c, true}))
       pieces.join(grid.index(r, c), grid.index(r, c + 1));
@@ -138,7 +138,7 @@ Islands pieces_of(const TornLinks& links) {
 /// Pairs of coarse nodes next to each other that hang together on one of the grids alone.
 int differing_pairs(const TornLinks& coarse, const TornLinks& fine) {
   const Grid &few = coarse.grid(), &many = fine.grid();
-  Islands before = pieces_of(coarse), after = pieces_of(fine);
+  DisjointSets before = pieces_of(coarse), after = pieces_of(fine);
   int differing = 0;
   const auto compare = [&](int r, int c, int rows, int cols) {
     if (r + rows >= few.rows || c + cols >= few.cols) return;
@@ -228,7 +228,7 @@ TEST(MendSplit, KeepsPiecesAndFlakesTogether) {
       for (const Link& link : some_links(level, 100 << (2 * (level - 3)), seed)) walls.add(level, link);
     }
     const TornLinks torn = walls.at(4);
-    Islands pieces = pieces_of(torn);
+    DisjointSets pieces = pieces_of(torn);
     Particles<double> coarse(coarse_grid), fine(fine_grid);
     each_node(coarse_grid, [&](int r, int c) {
       const double piece = 1e3 * static_cast<double>(pieces.of(coarse_grid.index(r, c)));

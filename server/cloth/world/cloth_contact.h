@@ -3,6 +3,8 @@
 
 #include "cloth/contact/constraints/layer_contacts.h"
 #include "cloth/contact/recovery/collision_net.h"
+#include "cloth/core/disjoint_sets.h"
+#include "cloth/core/effect_description.h"
 #include "cloth/world/cloth.h"
 
 namespace weft {
@@ -21,9 +23,9 @@ namespace weft {
 /// so; nothing else does. Nodes of triangles that an edge passes through are left alone, by contact and net,
 /// and led out of each other (untangling_moves) until none does. Torn cells are not there (FeatureSearch).
 template <class Real>
-class Layers {
+class ClothContact {
  public:
-  explicit Layers(const ClothContactEffect& parameters) : parameters_(parameters) {}
+  explicit ClothContact(const ClothContactEffect& parameters) : parameters_(parameters) {}
 
   const ClothContactEffect& parameters() const { return parameters_; }
 
@@ -62,7 +64,7 @@ class Layers {
   bool move_on(std::vector<Cloth<Real>>& cloths, double dt);
   void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
   /// Tells the cloths in what company they are; islands are of those that pairs join.
-  void let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const;
+  void let_sleep(std::vector<Cloth<Real>>& cloths, DisjointSets& islands) const;
   /// Of a pair of two cloths, for cells_passed().
   double pass(const LayerPair& pair) const;
   /// A sleeping cloth that it joins is to wake.
@@ -88,7 +90,7 @@ class Layers {
   int tangled_ = 0;
 };
 
-extern template class Layers<float>;
-extern template class Layers<double>;
+extern template class ClothContact<float>;
+extern template class ClothContact<double>;
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-#include "cloth/levels/relevance.h"
+#include "cloth/levels/view_cone.h"
 
 #include <cmath>
 

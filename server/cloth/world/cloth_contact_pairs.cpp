@@ -1,9 +1,9 @@
-/// Layers' pairs: which features each cloth's step is given.
+/// The pairs: which features each cloth's step is given.
 #include <algorithm>
 #include <numbers>
 #include <utility>
 
-#include "cloth/contact/layers.h"
+#include "cloth/world/cloth_contact.h"
 
 namespace weft {
 namespace {
@@ -63,20 +63,20 @@ class NearestPairs {
 }  // namespace
 
 template <class Real>
-std::size_t Layers<Real>::sheet_of(std::uint32_t node) const {
+std::size_t ClothContact<Real>::sheet_of(std::uint32_t node) const {
   return static_cast<std::size_t>(std::upper_bound(nodes_.first.begin(), nodes_.first.end(), node) -
                                   nodes_.first.begin()) -
          1;
 }
 
 template <class Real>
-bool Layers<Real>::rouses(const LayerPair& pair) const {
+bool ClothContact<Real>::rouses(const LayerPair& pair) const {
   return std::any_of(pair.features.node.begin(), pair.features.node.end(),
                      [&](std::uint32_t n) { return nodes_.velocity[n].norm() > kRousing; });
 }
 
 template <class Real>
-double Layers<Real>::pass(const LayerPair& pair) const {
+double ClothContact<Real>::pass(const LayerPair& pair) const {
   Vec3 relative(0, 0, 0);
   for (std::size_t i = 0; i < 4; ++i)
     relative += pair.near.weight[i] * nodes_.velocity[pair.features.node[i]];
@@ -85,10 +85,10 @@ double Layers<Real>::pass(const LayerPair& pair) const {
 }
 
 template <class Real>
-void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
+void ClothContact<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
   std::vector<std::vector<LayerPair>> shares(cloths.size());
-  Islands islands(cloths.size());
+  DisjointSets islands(cloths.size());
   // With those of its cloths that step so.
   const auto share = [&](const LayerPair& pair, bool with_implicit) {
     const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
@@ -144,7 +144,7 @@ void Layers<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
 }
 
 template <class Real>
-void Layers<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands) const {
+void ClothContact<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, DisjointSets& islands) const {
   std::vector<std::size_t> size(cloths.size(), 0), quiet(cloths.size(), 0);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     ++size[islands.of(i)];
@@ -158,15 +158,15 @@ void Layers<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, Islands& islands)
   }
 }
 
-template std::size_t Layers<float>::sheet_of(std::uint32_t) const;
-template bool Layers<float>::rouses(const LayerPair&) const;
-template double Layers<float>::pass(const LayerPair&) const;
-template void Layers<float>::share_pairs(std::vector<Cloth<float>>&, double);
-template void Layers<float>::let_sleep(std::vector<Cloth<float>>&, Islands&) const;
-template std::size_t Layers<double>::sheet_of(std::uint32_t) const;
-template bool Layers<double>::rouses(const LayerPair&) const;
-template double Layers<double>::pass(const LayerPair&) const;
-template void Layers<double>::share_pairs(std::vector<Cloth<double>>&, double);
-template void Layers<double>::let_sleep(std::vector<Cloth<double>>&, Islands&) const;
+template std::size_t ClothContact<float>::sheet_of(std::uint32_t) const;
+template bool ClothContact<float>::rouses(const LayerPair&) const;
+template double ClothContact<float>::pass(const LayerPair&) const;
+template void ClothContact<float>::share_pairs(std::vector<Cloth<float>>&, double);
+template void ClothContact<float>::let_sleep(std::vector<Cloth<float>>&, DisjointSets&) const;
+template std::size_t ClothContact<double>::sheet_of(std::uint32_t) const;
+template bool ClothContact<double>::rouses(const LayerPair&) const;
+template double ClothContact<double>::pass(const LayerPair&) const;
+template void ClothContact<double>::share_pairs(std::vector<Cloth<double>>&, double);
+template void ClothContact<double>::let_sleep(std::vector<Cloth<double>>&, DisjointSets&) const;
 
 }  // namespace weft

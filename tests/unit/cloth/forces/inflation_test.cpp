@@ -1,7 +1,7 @@
 // inflation: p dV/dr on every node.
 #include <gtest/gtest.h>
 
-#include "cloth/air/inflation.h"
+#include "cloth/forces/inflation.h"
 #include "fixtures.h"
 
 namespace weft {

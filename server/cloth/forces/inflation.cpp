@@ -1,4 +1,4 @@
-#include "cloth/air/inflation.h"
+#include "cloth/forces/inflation.h"
 
 #include "cloth/kernels/pressure_kernels.h"
 

@@ -1,4 +1,4 @@
-#include "cloth/contact/layers.h"
+#include "cloth/world/cloth_contact.h"
 
 #include <algorithm>
 #include <set>
@@ -44,14 +44,14 @@ Vec3 lasting(const Vec3& acceleration) {
 }  // namespace
 
 template <class Real>
-bool Layers<Real>::laid_out(const std::vector<Cloth<Real>>& cloths) const {
+bool ClothContact<Real>::laid_out(const std::vector<Cloth<Real>>& cloths) const {
   return std::equal(
       grids_.begin(), grids_.end(), cloths.begin(), cloths.end(),
       [](const Grid& grid, const Cloth<Real>& cloth) { return grid == cloth.particles().grid(); });
 }
 
 template <class Real>
-void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   if (laid_out(cloths)) return;
   std::vector<Grid> grids;
   grids.reserve(cloths.size());
@@ -91,12 +91,12 @@ void Layers<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
 }
 
 template <class Real>
-void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths) {
   for (std::size_t k = 0; k < cloths.size(); ++k) take_over_tears(cloths, k);
 }
 
 template <class Real>
-void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths, std::size_t cloth) {
+void ClothContact<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths, std::size_t cloth) {
   const std::shared_ptr<const TornLinks>& torn = cloths[cloth].springs().torn();
   if (torn == torn_[cloth]) return;
   torn_[cloth] = torn;
@@ -105,7 +105,7 @@ void Layers<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths, std::
 }
 
 template <class Real>
-void Layers<Real>::read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const {
+void ClothContact<Real>::read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3>& positions) const {
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     const Vec3& place = cloths[k].particles().place;
     const auto x = kernels::components(cloths[k].particles().position);
@@ -119,7 +119,7 @@ void Layers<Real>::read(const std::vector<Cloth<Real>>& cloths, std::vector<Vec3
 }
 
 template <class Real>
-void Layers<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     const bool still = stands_still(cloths[k]);
     const auto& values = cloths[k].particles().inverse_mass.values();
@@ -129,7 +129,7 @@ void Layers<Real>::read_masses(const std::vector<Cloth<Real>>& cloths) {
 }
 
 template <class Real>
-void Layers<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
   const std::vector<char> before = std::exchange(on_solid_, std::vector<char>(on_solid_.size(), 0));
   std::fill(nodes_.lies.begin(), nodes_.lies.end(), 0);
   for (std::size_t k = 0; k < cloths.size(); ++k) {
@@ -144,7 +144,7 @@ void Layers<Real>::weigh_down(const std::vector<Cloth<Real>>& cloths) {
 }
 
 template <class Real>
-void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
+void ClothContact<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
   lay_out(cloths);
   take_over_tears(cloths);
   crowded_.assign(cloths.size(), 0);
@@ -182,7 +182,7 @@ void Layers<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt) {
 }
 
 template <class Real>
-void Layers<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
+void ClothContact<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
   const std::vector<Crossing> crossings = search_.find_crossings(nodes_);
   nodes_.tangled.assign(nodes_.start.size(), 0);
   for (const Crossing& crossing : crossings) {
@@ -210,7 +210,7 @@ void Layers<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
 }
 
 template <class Real>
-void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
+void ClothContact<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
   if (std::all_of(cloths.begin(), cloths.end(), stands_still<Real>)) return;
   if (cloths.size() > 1) {
     std::vector<std::vector<PairForce>*> forces;
@@ -227,7 +227,7 @@ void Layers<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
 }
 
 template <class Real>
-bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
+bool ClothContact<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
   const std::vector<Vec3>& untouched = net_.untouched_end();
   bool met = false;
   for (std::size_t k = 0; k < cloths.size(); ++k) {
@@ -262,7 +262,7 @@ bool Layers<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
   return met;
 }
 
-template class Layers<float>;
-template class Layers<double>;
+template class ClothContact<float>;
+template class ClothContact<double>;
 
 }  // namespace weft

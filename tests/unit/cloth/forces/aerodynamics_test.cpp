@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "cloth/air/aerodynamics.h"
-#include "cloth/air/paper_wind.h"
+#include "cloth/forces/aerodynamics.h"
+#include "cloth/forces/paper_wind.h"
 #include "effect_sheet.h"
 
 namespace weft {

@@ -1,4 +1,4 @@
-#include "cloth/air/paper_wind.h"
+#include "cloth/forces/paper_wind.h"
 
 #include "cloth/kernels/air_kernels.h"
 

@@ -1,4 +1,4 @@
-#include "cloth/air/aerodynamics.h"
+#include "cloth/forces/aerodynamics.h"
 
 #include <algorithm>
 #include <cmath>
