@@ -15,9 +15,9 @@
 #include "cli/stats_writer.h"
 #include "cli/threads.h"
 #include "cloth/core/clock.h"
+#include "cloth/core/subnormals.h"
 #include "cloth/world/simulation.h"
 #include "cloth/world/state_hash.h"
-#include "host/arithmetic.h"
 #include "host/guard_log.h"
 #include "scene/scene.h"
 
@@ -119,7 +119,7 @@ int run(const RunOptions& options) {
   }
   const auto& scene = std::get<scene::Scene>(result);
   const ThreadLimit limit = options.threads.limit();
-  host::flush_subnormals();  // as where scenes are served: the bits must be the same
+  flush_subnormals();  // as where scenes are served: the bits must be the same
   Simulation<float> simulation(scene.simulation);
   choose_levels(options, scene, simulation);
   Outputs outputs(options, scene.simulation);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cloth/core/interrupt.h"
-#include "host/arithmetic.h"
+#include "cloth/core/subnormals.h"
 #include "host/live_scene.h"
 #include "host/scene_messages.h"
 #include "host/server_clock.h"

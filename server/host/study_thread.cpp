@@ -11,7 +11,7 @@
 
 #include "cloth/core/interrupt.h"
 #include "cloth/core/parallel.h"
-#include "host/arithmetic.h"
+#include "cloth/core/subnormals.h"
 #include "study/thread_time.h"
 
 namespace weft::host {

@@ -13,6 +13,12 @@ file(READ ${SOURCE_DIR}/../../README.md readme)
 string(REGEX MATCH "```cpp\n([^`]*)```" example "${readme}")
 file(WRITE ${WORK_DIR}/readme.cpp "${CMAKE_MATCH_1}")
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+# The library has a face, and what is behind it may change.
+file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*)
+list(LENGTH headers count)
+if(count GREATER 12)
+  message(FATAL_ERROR "${count} public headers; at most 12 are to be: ${headers}")
+endif()
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/outside -B ${WORK_DIR}/outside -G Ninja -DCMAKE_PREFIX_PATH=${prefix}
     -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DREADME_EXAMPLE=${WORK_DIR}/readme.cpp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/outside)

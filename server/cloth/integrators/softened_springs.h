@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "cloth/sheet/material.h"
+#include "cloth/sheet/cloth_description.h"
 #include "cloth/sheet/springs.h"
 
 namespace weft {

@@ -2,20 +2,14 @@
 
 #include <cstddef>
 
+#include "cloth/core/fnv1a.h"
+
 namespace weft {
 namespace {
 
-class Hash {
+class Hash : public Fnv1a {
  public:
-  /// `value`'s own bytes: a type without padding.
-  template <class T>
-  void add(const T& value) {
-    add(&value, sizeof value);
-  }
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * kPrime;
-  }
+  using Fnv1a::add;
   template <class Real>
   void add(const VectorField<Real>& field) {
     const Grid& grid = field.grid();
@@ -27,11 +21,6 @@ class Hash {
   }
   void add(const Vec3& vector) { add(vector.data(), 3 * sizeof(double)); }
   void add(const Eigen::Vector4d& vector) { add(vector.data(), 4 * sizeof(double)); }
-  std::uint64_t value() const { return value_; }
-
- private:
-  static constexpr std::uint64_t kPrime = 0x100000001b3;
-  std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
 }  // namespace

@@ -16,6 +16,8 @@ ALLOWED = {
     "protocol": {"protocol"},
     "scene": {"scene", "cloth"},
     "study": {"study", "scene", "cloth"},
+    "include": {"include"},
+    "library": {"library", "include", "scene", "cloth"},
     "record": {"record", "scene", "cloth"},
     "host": {"host", "record", "study", "scene", "cloth", "protocol"},
     "net": {"net", "host", "study", "scene", "cloth", "protocol"},

@@ -1,11 +1,11 @@
-#include "host/arithmetic.h"
+#include "cloth/core/subnormals.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <thread>
 
-namespace weft::host {
+namespace weft {
 namespace {
 
 #if defined(__SSE__)
@@ -32,7 +32,19 @@ TEST(FlushSubnormals, OnThisThreadAlone) {
   EXPECT_EQ(denormal, 0) << "one that is read, too";
   EXPECT_GT(halve(std::numeric_limits<float>::min()), 0) << "another thread's are as they were";
 }
+
+TEST(FlushSubnormals, AsLongAsItIsAskedFor) {
+  const auto halved = [] {
+    const volatile float smallest = std::numeric_limits<float>::min();
+    return smallest / 2;
+  };
+  {
+    const FlushedSubnormals flushed;
+    EXPECT_EQ(halved(), 0);
+  }
+  EXPECT_GT(halved(), 0);
+}
 #endif
 
 }  // namespace
-}  // namespace weft::host
+}  // namespace weft
