@@ -31,13 +31,13 @@ struct Solid {
   Vec3 turn{0, 0, 0};      ///< in the step, about this axis by its length, rad
   Vec3 spin{0, 0, 0};      ///< rad/s
 
-  /// Takes up what the cloth gives it.
   /// But for the shape, which does not change (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
     archive(id, rotation, friction, inverse_mass, inverse_inertia, just_put, mobile, start, position,
             velocity, turn, spin);
   }
+  /// Takes up what the cloth gives it.
   bool yields() const { return inverse_mass > 0; }
   /// Takes up what the cloth gives it by turning, too.
   bool yields_turning() const { return !inverse_inertia.isZero(0); }

@@ -132,13 +132,14 @@ class ContactConstraints {
     bool released = false;
     bool pinched = false;  ///< held both ways: another solid keeps the node from leaving this one
     Vec3 grip{0, 0, 0};    ///< of static friction when the substep begins; after finish, when it ends, N
-    /// What friction goes by: the median of three steps' forces, the lesser of two, N.
+
     template <class Archive>
     void serialize(Archive& archive) {
       archive(touch, point, body, arm, normal, distance, led_out, solid_move, holds, slid, sliding, width,
               stiffness, friction_stiffness, force, last_force, force_before, has_stuck, speeding_up,
               released, pinched, grip);
     }
+    /// What friction goes by: the median of three steps' forces, the lesser of two, N.
     double usual_force() const;
     bool sticks() const { return friction_stiffness > 0 && friction_stiffness == stiffness; }
   };

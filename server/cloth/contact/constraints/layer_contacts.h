@@ -59,11 +59,10 @@ struct LayerParameters {
 ///  - To an implicit step these masses are in series with the constraint's spring, and the force that is
 ///    carried on is the mean of what both have found (share_forces): each feels the other's weight.
 ///  - Of the force of a hit no more is carried on than the step before carried plus the nodes' own weight,
-///  and
-///    nothing of what was found against a sleeping cloth: the soft spring would return it only where both fly
-///    apart.
+///    and nothing of what was found against a sleeping cloth: the soft spring would return it only where both
+///    fly apart.
 ///  - Near rest a sticking contact keeps the friction that held it; computed anew in each step it would
-///  creep.
+///    creep.
 ///  - In a contact's first steps, which have no such force, the masses also keep their acceleration without
 ///    contact. Later that is mostly the noise of stiff springs and is left out.
 template <class Real>

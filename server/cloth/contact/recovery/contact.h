@@ -30,12 +30,12 @@ struct Substep {
   double from = 0, to = 1;
   double seconds = 1.0 / 60;
 
-  /// Of the whole step.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(from, to, seconds);
   }
 
+  /// Of the whole step.
   double step_seconds() const { return to > from ? seconds / (to - from) : seconds; }
   static Substep of(int index, int count, double dt) {
     return {static_cast<double>(index) / count, static_cast<double>(index + 1) / count, dt / count};

@@ -1,0 +1,136 @@
+// Contacts with solids as springs of an implicit step's system: when they hold, how stiff, when they let go.
+#include "cloth/contact/constraints/contact_constraints.h"
+
+#include "cloth/solver/node_arrays.h"
+#include "fixtures.h"
+
+namespace weft::test {
+namespace {
+
+constexpr double kConstraintStep = 0.01, kLinks = 300,
+                 kInertia = 1 / (kConstraintStep * kConstraintStep);  // N/m
+
+/// A sheet of 3 x 3 nodes of 1 kg in the plane z = 0, on ground below it; the middle node touches that.
+class OnGround {
+ public:
+  explicit OnGround(double friction = 0) : sheet_(flat_sheet<double>(3, 3, {1, 1})), solids_(1) {
+    solids_[0].id = kFirstObstacle;
+    solids_[0].shape = HalfSpace{};
+    solids_[0].rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()).toRotationMatrix();
+    solids_[0].friction = friction;
+  }
+  std::size_t middle() const { return sheet_.grid().index(1, 1); }
+  Touch touch() const { return {middle(), kFirstObstacle}; }
+  void set_velocity(const Vec3& velocity) { set(sheet_.velocity, 1, 1, velocity); }
+  std::vector<Solid>& solids() { return solids_; }
+  void begin(bool near_rest = false) {
+    contacts.begin({touch()}, {}, sheet_, solids_, Substep{0, 1, kConstraintStep}, near_rest, bodies);
+  }
+  /// The middle node's block and right-hand side in the system at its move.
+  struct System {
+    Eigen::Matrix3d block;
+    Vec3 b;
+  };
+  System system_at(const Vec3& move) {
+    const Grid& grid = sheet_.grid();
+    NodeArrays<double> blocks(grid, 6), vectors(grid, 6), numbers(grid, 1);
+    const kernels::Blocks<double> block = blocks.blocks();
+    std::fill_n(numbers[0], grid.size(), kInertia);
+    NodeCouplings<double> couplings;
+    contacts.add_to(block, couplings, vectors.vector(0), bodies, numbers[0], kLinks, {},
+                    moved(vectors.vector(3), move));
+    const std::size_t i = middle();
+    return {Eigen::Matrix3d{{block.xx[i], block.xy[i], block.xz[i]},
+                            {block.xy[i], block.yy[i], block.yz[i]},
+                            {block.xz[i], block.yz[i], block.zz[i]}},
+            at(kernels::Components<const double>(vectors.vector(0)), i)};
+  }
+  double release_pulling(const Vec3& move) {
+    NodeArrays<double> vectors(sheet_.grid(), 3);
+    return contacts.release_pulling(moved(vectors.vector(0), move), bodies);
+  }
+  std::vector<Touch> finish(const Vec3& move) {
+    NodeArrays<double> vectors(sheet_.grid(), 3);
+    return contacts.finish(moved(vectors.vector(0), move), bodies, solids_);
+  }
+
+  ContactConstraints<double> contacts;
+  AttachedBodies<double> bodies;
+
+ private:
+  kernels::Components<double> moved(const kernels::Components<double>& field, const Vec3& move) const {
+    add(field, middle(), move);
+    return field;
+  }
+  Particles<double> sheet_;
+  std::vector<Solid> solids_;
+};
+
+// DECISIONS.md: as stiff as the links and a hundred times the inertia together.
+constexpr double kStiff = kLinks + 100 * kInertia;
+
+TEST(ContactConstraints, HoldANodeAlongTheNormalAlone) {
+  OnGround sheet;
+  sheet.begin();
+  ASSERT_FALSE(sheet.contacts.empty());
+  const auto [block, b] = sheet.system_at({0, 0, 0});
+  EXPECT_NEAR(block(2, 2), kStiff, 1e-9 * kStiff);
+  EXPECT_LT((block - kStiff * Vec3(0, 0, 1) * Vec3(0, 0, 1).transpose()).norm(), 1e-9 * kStiff);
+  EXPECT_LT(b.norm(), 1e-9) << "it lies on the surface";
+}
+
+TEST(ContactConstraints, PushOutWhatGoesIn) {
+  OnGround sheet;
+  sheet.begin();
+  const Vec3 b = sheet.system_at({0.1, 0, -1e-3}).b;
+  EXPECT_LT((b - Vec3(0, 0, 1e-3 * kStiff)).norm(), 1e-9 * kStiff);
+}
+
+TEST(ContactConstraints, LetGoOfWhatPullsAndHoldItAgainWhenItPresses) {
+  OnGround sheet;
+  sheet.begin();
+  sheet.system_at({0, 0, 0});
+  // A spring drawn out by 2 mm holds k d^2 / 2.
+  EXPECT_NEAR(sheet.release_pulling({0, 0, 2e-3}), kStiff * 2e-6, 1e-9 * kStiff);
+  EXPECT_EQ(sheet.system_at({0, 0, 2e-3}).block, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(sheet.release_pulling({0, 0, 3e-3}), 0);
+  EXPECT_GT(sheet.release_pulling({0, 0, -1e-3}), 0);
+  EXPECT_GT(sheet.system_at({0, 0, -1e-3}).block(2, 2), 0);
+}
+
+TEST(ContactConstraints, WhatLeavesIsNotHeldAndSaidSo) {
+  OnGround sheet;
+  sheet.set_velocity({0, 0, 5});
+  sheet.begin();
+  EXPECT_TRUE(sheet.contacts.empty());
+  EXPECT_EQ(sheet.contacts.not_held(), std::vector<Touch>{sheet.touch()});
+}
+
+// Coulomb's friction goes by the force of the step before: none in the first, then at most mu times it.
+TEST(ContactConstraints, RubByTheForceOfTheStepBefore) {
+  constexpr double kFriction = 0.5, kDepth = 1e-4;
+  OnGround sheet(kFriction);
+  sheet.set_velocity({1, 0, 0});
+  sheet.begin();
+  EXPECT_EQ(sheet.system_at({0, 0, 0}).block(0, 0), 0);
+  sheet.finish({0, 0, -kDepth});
+  sheet.begin();
+  const double force = kStiff * kDepth, slide = 1 * kConstraintStep;
+  const auto [block, b] = sheet.system_at({slide, 0, 0});
+  EXPECT_NEAR(-b.x(), kFriction * force, 1e-6 * force);
+  EXPECT_NEAR(block(0, 0), kFriction * force / slide, 1e-6 * force / slide);
+}
+
+TEST(ContactConstraints, ABodyHangsOnWhatPressesOnIt) {
+  OnGround sheet;
+  sheet.solids()[0].shape = Sphere{0.5};
+  sheet.solids()[0].position = sheet.solids()[0].start = {0, 0, -0.5};
+  sheet.solids()[0].inverse_mass = 1;
+  sheet.begin();
+  EXPECT_FALSE(sheet.bodies.empty());
+  sheet.system_at({0, 0, 0});
+  EXPECT_EQ(sheet.finish({0, 0, -1e-4}), std::vector<Touch>{sheet.touch()});
+}
+
+}  // namespace
+}  // namespace weft::test
