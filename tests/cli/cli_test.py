@@ -99,9 +99,9 @@ class ExitCodes(CliTest):
             result = weft("run", "flag", "--frames", 1000000, "--out", path)
             self.assertEqual(result.returncode, 1)
             self.assertIn(message, result.stderr)
-        result = weft("run", "flag", "--frames", 1200, "--out", self.folder / "m.glb")
+        result = weft("run", "flag", "--frames", 1000000, "--level", 5, "--out", self.folder / "m.glb")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("holds at most 1200 frames; this run has 1201", result.stderr)
+        self.assertIn("m.glb: a .glb holds at most 4 GiB", result.stderr)
 
 
 class FullDisk(CliTest):
@@ -117,6 +117,7 @@ class FullDisk(CliTest):
         run = ("run", "flag", "--frames", 100, "--level", 4)
         cost = ("cost", "swing", "--levels", "3-4", "--duration", "0.1", "--budget", "30s")
         for arguments, name in ((run + ("--out",), "m.csv"), (run + ("--out",), "m.pc2"), (run + ("--out",), "m.glb"),
+                                (run + ("--out",), "m.mdd"), (run + ("--out",), "m.usda"),
                                 (run + ("--out",), "m.obj"), (run + ("--stats",), "s.csv"), (cost + ("--csv",), "c.csv")):
             with self.subTest(name):
                 path = self.folder / name

@@ -18,9 +18,9 @@ HASHES = pathlib.Path(__file__).with_name("hashes.json")
 class Outputs(CliTest):
     def test_all_formats_hold_the_start_and_each_step(self):
         self.run_ok("flag", "--frames", 3, "--level", 4, *[
-            argument for name in ("m.obj", "m.pc2", "m.csv", "m.glb") for argument in ("--out", self.folder / name)])
+            argument for name in ("m.obj", "m.pc2", "m.mdd", "m.csv", "m.glb", "m.usda") for argument in ("--out", self.folder / name)])
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
-                         ["m.csv", "m.glb", "m.pc2", "m_0000.obj", "m_0001.obj", "m_0002.obj", "m_0003.obj"])
+                         ["m.csv", "m.glb", "m.mdd", "m.pc2", "m.usda", "m_0000.obj", "m_0001.obj", "m_0002.obj", "m_0003.obj"])
         with open(self.folder / "m.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 4 * 17 * 17)
@@ -37,9 +37,9 @@ class Outputs(CliTest):
         for scene in ("flag", "tablecloth", "zheng2020-ball"):
             for name in ("a", "b"):
                 self.run_ok(scene, "--frames", 20, "--level", 5, "--stats", self.folder / f"{name}.stats", *[
-                    x for extension in ("obj", "pc2", "csv", "glb") for x in ("--out", self.folder / f"{name}.{extension}")])
+                    x for extension in ("obj", "pc2", "mdd", "csv", "glb", "usda") for x in ("--out", self.folder / f"{name}.{extension}")])
             names = [p.name[1:] for p in self.folder.iterdir() if p.name.startswith("a") and p.suffix != ".stats"]
-            self.assertEqual(len(names), 21 + 3)
+            self.assertEqual(len(names), 21 + 5)
             for name in names:
                 self.assertEqual((self.folder / f"a{name}").read_bytes(), (self.folder / f"b{name}").read_bytes(), name)
             stats = []

@@ -1,7 +1,5 @@
 #include "cli/run/outputs.h"
 
-#include <stdexcept>
-
 namespace weft::cli {
 namespace {
 
@@ -26,41 +24,58 @@ MeshFrame mesh_of(const Simulation<float>& simulation, std::size_t cloth, int fr
   return mesh;
 }
 
+ExportedScene exported(const scene::Scene& scene, const Simulation<float>& simulation, int frames) {
+  ExportedScene exported{scene.name, {}, {}, scene.simulation.time_step, frames};
+  for (const ClothDescription& cloth : scene.simulation.cloths) exported.cloths.push_back(cloth.name);
+  for (const Ball& ball : simulation.colliders().balls())
+    exported.bodies.push_back(body_mesh("ball-" + std::to_string(ball.id), Sphere{ball.radius}));
+  const auto& obstacles = simulation.colliders().obstacles();
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    exported.bodies.push_back(body_mesh("obstacle-" + std::to_string(i), obstacles[i].solid.shape));
+  return exported;
+}
+
+/// In the order of exported().
+std::vector<Pose> poses(const Colliders& colliders) {
+  std::vector<Pose> poses;
+  for (const Ball& ball : colliders.balls()) poses.push_back({ball.position, Quaternion::Identity()});
+  for (const Obstacle& obstacle : colliders.obstacles())
+    poses.push_back({obstacle.pose.position, Quaternion(obstacle.solid.rotation)});
+  return poses;
+}
+
 }  // namespace
 
 RunOutputs::RunOutputs(const std::vector<std::string>& meshes, const std::string& stats, int frames,
-                       const SimulationDescription& description) {
-  const bool several = description.cloths.size() > 1;
-  for (const ClothDescription& cloth : description.cloths) {
-    auto& writers = writers_.emplace_back();
-    for (const std::string& path : meshes) {
-      files_.push_back(several ? MeshWriter::path_for_cloth(path, cloth.name) : path);
-      writers.push_back(MeshWriter::open(files_.back()));
-      if (frames > writers.back()->max_frames()) {
-        throw std::runtime_error(path + ": holds at most " + std::to_string(writers.back()->max_frames()) +
-                                 " frames; this run has " + std::to_string(frames));
-      }
-    }
-  }
-  if (stats.empty()) return;
-  stats_ = std::make_unique<StatsWriter>(stats, several);
-  files_.push_back(stats);
+                       const scene::Scene& scene, const Simulation<float>& simulation)
+    : stats_path_(stats) {
+  for (const std::string& path : meshes)
+    writers_.push_back(SceneWriter::open(path, exported(scene, simulation, frames)));
+  if (!stats.empty()) stats_ = std::make_unique<StatsWriter>(stats, scene.simulation.cloths.size() > 1);
 }
 
 void RunOutputs::write(int frame, const Simulation<float>& simulation) {
-  for (std::size_t cloth = 0; cloth < writers_.size(); ++cloth) {
-    if (writers_[cloth].empty()) continue;
-    const MeshFrame mesh = mesh_of(simulation, cloth, frame);
-    for (auto& writer : writers_[cloth]) writer->write(mesh);
-  }
   if (stats_) stats_->write(frame, simulation);
+  if (writers_.empty()) return;
+  SceneFrame meshes{{}, poses(simulation.colliders())};
+  for (std::size_t cloth = 0; cloth < simulation.cloths().size(); ++cloth)
+    meshes.cloths.push_back(mesh_of(simulation, cloth, frame));
+  for (const auto& writer : writers_) writer->write(meshes);
 }
 
 void RunOutputs::finish() {
-  for (auto& writers : writers_) {
-    for (auto& writer : writers) writer->finish();
-  }
+  for (const auto& writer : writers_) writer->finish();
   if (stats_) stats_->finish();
+}
+
+std::vector<std::string> RunOutputs::files() const {
+  std::vector<std::string> files;
+  for (const auto& writer : writers_) {
+    const std::vector<std::string> written = writer->files();
+    files.insert(files.end(), written.begin(), written.end());
+  }
+  if (stats_) files.push_back(stats_path_);
+  return files;
 }
 
 }  // namespace weft::cli

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/mesh_writer.h"
 #include "cli/stats_writer.h"
+#include "cli/writers/scene_writer.h"
 #include "cloth/world/simulation.h"
+#include "scene/scene.h"
 
 namespace weft::cli {
 
@@ -13,18 +14,17 @@ namespace weft::cli {
 class RunOutputs {
  public:
   /// `meshes`: paths of --out; `stats`: empty for none; `frames`: that will be written. Throws
-  /// std::runtime_error if one cannot be written, or cannot hold so many.
+  /// std::runtime_error if one cannot be written.
   RunOutputs(const std::vector<std::string>& meshes, const std::string& stats, int frames,
-             const SimulationDescription& description);
+             const scene::Scene& scene, const Simulation<float>& simulation);
 
   void write(int frame, const Simulation<float>& simulation);
   void finish();
-  /// As they are named to whoever asks.
-  const std::vector<std::string>& files() const { return files_; }
+  std::vector<std::string> files() const;
 
  private:
-  std::vector<std::vector<std::unique_ptr<MeshWriter>>> writers_;
-  std::vector<std::string> files_;
+  std::vector<std::unique_ptr<SceneWriter>> writers_;
+  std::string stats_path_;
   std::unique_ptr<StatsWriter> stats_;
 };
 

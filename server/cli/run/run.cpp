@@ -87,7 +87,7 @@ int run(const RunOptions& options) {
   // Before the steps, so that who cannot write learns it now.
   std::optional<OutputFile> saved;
   if (!options.save.empty()) saved.emplace(options.save);
-  RunOutputs outputs(options.outputs, options.stats, options.frames + 1, scene.simulation);
+  RunOutputs outputs(options.outputs, options.stats, options.frames + 1, scene, simulation);
   outputs.write(frame_of(simulation), simulation);
 
   host::GuardLog guard;
@@ -132,9 +132,10 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(kMinLevel, kMaxLevel))
       ->excludes(distance);
   command
-      ->add_option(
-          "--out", options->outputs,
-          "Meshes, by extension: .obj (one file a frame), .pc2, .csv, .glb; may be given several times")
+      ->add_option("--out", options->outputs,
+                   "Meshes, by extension: .glb, .usda, .obj (one file a frame) with balls and obstacles; "
+                   ".pc2, .mdd and .csv, "
+                   "one a cloth; may be given several times")
       ->allow_extra_args(false);
   command->add_option("--stats", options->stats, "Figures for each frame, as CSV");
   command->add_flag("--hash", options->hash,
