@@ -15,8 +15,7 @@ LastState last_state(const Recording& recording, const std::string& version, con
   if (name != scene.name)
     throw std::invalid_argument("it is of another scene, " + name + "; this is " + scene.name);
   if (head.value("document", "") != scene.document)
-    throw std::invalid_argument("it is of another scene by the name " + name +
-                                ", or of one with other values");
+    throw std::invalid_argument("it is of another scene by that name, or of other values (--set)");
   Replay replay(recording);
   while (replay.step()) {
   }

@@ -54,7 +54,7 @@ class GoingOn(CliTest):
 
     def test_values_that_were_set_belong_to_the_scene(self):
         path = self.save("flag-gusts", "--set", "/wind/speed=3")
-        self.assertIn("it is of another scene by the name flag-gusts, or of one with other values",
+        self.assertIn("it is of another scene by that name, or of other values (--set)",
                       self.refused("flag-gusts", "--from", path))
         self.run_ok("flag-gusts", "--frames", 1, "--from", path, "--set", "/wind/speed=3")
 
