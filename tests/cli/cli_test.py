@@ -27,6 +27,19 @@ class ExitCodes(CliTest):
             self.assertEqual(result.returncode, 2, arguments)
             self.assertNotEqual(result.stderr, "", arguments)
 
+    def test_what_was_meant_is_told(self):
+        for arguments, meant in ((["run", "flag", "--frame", "3"], 'weft: --frame is unknown; did you mean "--frames"?\n'),
+                                 (["run", "flag", "--sets=/a=1"], 'weft: --sets is unknown; did you mean "--set"?\n'),
+                                 (["rum", "flag"], 'weft: rum is unknown; did you mean "run"?\n'),
+                                 (["run", "flga"], 'did you mean "flag"?)\n'),
+                                 (["run", "flag", "--set", "/wind/sped=3"],
+                                  '/wind/sped: unknown key; known here: direction, speed, gusts, turbulence, zones; '
+                                  'did you mean "speed"?\n')):
+            result = weft(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(result.stderr.endswith(meant), result.stderr[-300:])
+        self.assertNotIn("did you mean", weft("run", "flag", "--colour").stderr)
+
     def test_threads_must_make_sense(self):
         for command in ("run", "serve"):
             for threads in ("0", "-1", "1025", "many"):
