@@ -2,12 +2,12 @@
 
 # To build and run the server. A command already on the machine (a newer Node.js, say) spares its package.
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libtbb-dev libboost-dev libssl-dev libcereal-dev prometheus-cpp-dev
-                nlohmann-json3-dev libcli11-dev libspdlog-dev libtinygltf-dev libqhull-dev libtinyobjloader-dev
+                nlohmann-json3-dev libcli11-dev libspdlog-dev libqhull-dev libtinyobjloader-dev
                 libtomlplusplus-dev nodejs npm)
 # To run the image: the shared libraries of the above.
-runtime_packages=(libfcl0.7 libtbb12 libssl3 libprometheus-cpp-core1.0 libspdlog1.10 libtinygltf2d libqhull-r8.0 libtinyobjloader2rc10)
+runtime_packages=(libfcl0.7 libtbb12 libssl3 libprometheus-cpp-core1.0 libspdlog1.10 libqhull-r8.0 libtinyobjloader2rc10)
 # To test it: C++ test libraries, the Python client's only dependency, a browser, an image reader.
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapidcheck-dev libvalijson-dev
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapidcheck-dev libvalijson-dev libtinygltf-dev
                python3 python3-websockets valgrind chromium fonts-dejavu-core)
 # To check it: format and lint.
 lint_packages=(clang clang-format clang-tidy)

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,7 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
-#include "cli/mesh_writer.h"
+#include "cli/writers/scene_writer.h"
 #include "cloth/core/clock.h"
 #include "net/client.h"
 #include "protocol/frame.h"
@@ -110,9 +109,7 @@ class Conversation {
 
  private:
   void finish_files() {
-    for (auto& [cloth, writers] : writers_) {
-      for (auto& writer : writers) writer->finish();
-    }
+    for (const auto& writer : writers_) writer->finish();
   }
 
   double elapsed() const { return Seconds(Clock::now() - start_).count(); }
@@ -165,8 +162,9 @@ class Conversation {
   }
 
   void enter(const json& scene) {
-    cloths_.clear();
-    for (const json& cloth : scene.at("cloths")) cloths_.push_back(cloth.at("name"));
+    exported_ = {scene.at("name"), {}, {}, scene.at("dt")};
+    for (const json& cloth : scene.at("cloths")) exported_.cloths.push_back(cloth.at("name"));
+    seen_.cloths.assign(exported_.cloths.size(), {});
     const bool waits_for_its_ball = throws_when_added_ != 0;
     if (options_.velocity.empty() || waits_for_its_ball || thrown_) return;
     if (scene.at("balls").empty())
@@ -184,7 +182,7 @@ class Conversation {
     std::string error;
     if (!protocol::decode_frame(bytes, frame, error)) throw std::runtime_error("a malformed frame: " + error);
     client_.send(protocol::to_text({std::nullopt, protocol::Ack{frame.stamp.frame}}));
-    for (const protocol::ClothRecord& cloth : frame.cloths) write(cloth, frame.stamp);
+    write(frame);
     if (!options_.quiet) print(frame, bytes.size());
     ++frames_;
   }
@@ -200,23 +198,19 @@ class Conversation {
                 levels.c_str(), nodes.c_str(), bytes);
   }
 
-  void write(const protocol::ClothRecord& cloth, const protocol::FrameStamp& stamp) {
+  void write(const protocol::Frame& frame) {
     if (options_.outputs.empty()) return;
-    auto& writers = writers_[cloth.cloth];
-    if (writers.empty()) {
-      for (const std::string& path : options_.outputs) {
-        writers.push_back(MeshWriter::open(
-            cloths_.size() > 1 ? MeshWriter::path_for_cloth(path, cloths_.at(cloth.cloth)) : path));
-      }
+    for (const protocol::ClothRecord& cloth : frame.cloths)
+      seen_.cloths.at(cloth.cloth) = {0, 0, cloth.rows, cloth.cols, cloth.positions, {}, cloth.torn_faces};
+    for (MeshFrame& cloth : seen_.cloths) {
+      if (cloth.positions.empty()) return;  // it has not come yet
+      cloth.frame = static_cast<int>(frame.stamp.frame);
+      cloth.time = frame.stamp.time;
     }
-    const MeshFrame mesh{static_cast<int>(stamp.frame),
-                         stamp.time,
-                         cloth.rows,
-                         cloth.cols,
-                         cloth.positions,
-                         {},
-                         cloth.torn_faces};
-    for (auto& writer : writers) writer->write(mesh);
+    if (writers_.empty()) {
+      for (const std::string& path : options_.outputs) writers_.push_back(SceneWriter::open(path, exported_));
+    }
+    for (const auto& writer : writers_) writer->write(seen_);
   }
 
   const ClientOptions& options_;
@@ -228,8 +222,9 @@ class Conversation {
   std::int64_t throws_when_added_ = 0;  ///< id of the ball.add whose ball is to be thrown
   bool thrown_ = false, refused_ = false;
   int frames_ = 0;
-  std::vector<std::string> cloths_;
-  std::map<std::uint32_t, std::vector<std::unique_ptr<MeshWriter>>> writers_;
+  ExportedScene exported_;                             ///< the scene joined, with its cloths alone
+  SceneFrame seen_;                                    ///< the newest of each cloth
+  std::vector<std::unique_ptr<SceneWriter>> writers_;  ///< from the first frame on
 };
 
 /// The path that everything of the server at `target` is below, with a slash at its end: of a scene's there,
@@ -285,10 +280,10 @@ void add_client(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--seconds", options->seconds, "Ends after this time, s")->check(CLI::PositiveNumber);
   command
-      ->add_option(
-          "--out", options->outputs,
-          "Meshes as they come, by extension: .obj (one file a frame), .pc2, .csv, .glb; may be given "
-          "several times")
+      ->add_option("--out", options->outputs,
+                   "Cloths as they come, by extension: .glb, .usda, .obj (one file a frame), or .pc2, .mdd "
+                   "and .csv, one a "
+                   "cloth; may be given several times")
       ->allow_extra_args(false);
   command->add_option("--script", options->script,
                       "Messages to send, one a line: a message of the protocol with \"at\", its time in s");

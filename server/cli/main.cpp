@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/settings.h"
+#include "cli/suggestion.h"
 
 namespace {
 
@@ -38,7 +39,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // 0: help was asked for
-    return with_output_written(app.exit(error) == 0 ? 0 : weft::cli::kBadUsage);
+    if (app.exit(error) == 0) return with_output_written(0);
+    std::fputs(weft::cli::suggestion(app).c_str(), stderr);
+    return with_output_written(weft::cli::kBadUsage);
   } catch (const weft::cli::BadSetting& error) {
     std::fprintf(stderr, "weft: %s\n", error.what());
     return weft::cli::kBadUsage;

@@ -56,53 +56,9 @@ bool load_scenes(const ServeOptions& options, host::Host& host) {
 void ServeOptions::add_to(CLI::App& command) {
   command.add_option("SCENE,--scene", scenes,
                      "Presets or scene files; the first is shown first (default: all presets)");
-  command.add_option("--host", server.host, "Address to listen at")->capture_default_str();
-  command.add_option("--port", server.port, "TCP port; 0 takes a free one")->capture_default_str();
-  command.add_option("--web", server.web, "The page's directory (default: found beside the executable)")
-      ->check(CLI::ExistingDirectory);
-  command
-      .add_option("--allow-origin", server.allowed_origins,
-                  "Origin of pages that may connect besides this server's own and this machine's, as "
-                  "https://example.org; * allows all; may be given several times")
-      ->allow_extra_args(false);
-  command.add_option("--viewers", limits.viewers, "Viewers that a scene may have at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1, static_cast<int>(server.max_connections)));
-  command
-      .add_option(
-          "--host-name", server.names,
-          "Name that requests may call this server by (their Host header) besides localhost, --host and "
-          "addresses, as weft.example; * allows all; may be given several times")
-      ->allow_extra_args(false);
-  command
-      .add_option("--connections", server.max_connections,
-                  "Connections of any kind at a time; more are refused with 503")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--connections-per-address", server.max_connections_per_address,
-          "Those of one IPv4 address, or one IPv6 /64 network; more are refused with 429. 0: no limit, as "
-          "behind a proxy, through which all come from one address")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
+  ServingOptions::add_to(command);
   command.add_option("--set", overrides, "POINTER=VALUE changes a value of every scene, as /wind/speed=8")
       ->allow_extra_args(false);
-  command
-      .add_option("--tokens", server.tokens,
-                  "File of bearer tokens and what each may do: view, control or admin (JSON)")
-      ->check(CLI::ExistingFile);
-  command
-      .add_option(
-          "--tls-certificate", server.certificate,
-          "Certificate chain (PEM): https and wss at the same port; without TLS this machine alone is "
-          "served")
-      ->check(CLI::ExistingFile);
-  command.add_option("--tls-key", server.key, "Its private key (PEM)")->check(CLI::ExistingFile);
-  command.add_flag(
-      "--insecure", server.insecure,
-      "Listens at an address that others reach although there are no --tokens; with a certificate, "
-      "serves others without TLS, too");
   add_limits(command, limits, making);
   command.add_option(
       "--data", folders.data,
@@ -110,10 +66,6 @@ void ServeOptions::add_to(CLI::App& command) {
   command.add_option("--record", folders.record,
                      "Folder in which everything that is done to a scene is recorded, as NAME.weftrec");
   threads.add_to(command);
-  command.add_option("--log", log, "Form of the log: text or json, an object a line")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
-  command.add_flag("--quiet", quiet, "Logs warnings and errors only");
   command
       .add_option("--config", config,
                   "File with these options (TOML: port = 8080); the command line and the environment "

@@ -5,22 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "cli/serving.h"
 #include "cli/threads.h"
 #include "host/host.h"
-#include "net/server.h"
 
 namespace weft::cli {
 
-struct ServeOptions {
+struct ServeOptions : ServingOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  protocol::Limits limits;
   host::MakingLimits making;
   host::LogFolders folders;
-  net::ServerOptions server;
   Threads threads;
-  std::string log = "text";
-  bool quiet = false;
   std::filesystem::path config;
 
   /// `this` must outlive the command.

@@ -71,6 +71,14 @@ void Host::add(scene::Scene scene) {
   start(std::move(scene), std::nullopt);
 }
 
+void Host::play(const Playing& playing) {
+  scene::Scene scene = playing.recording->scene();
+  const std::lock_guard lock(mutex_);
+  if (taken(scene.name)) throw std::invalid_argument("there are two scenes named " + scene.name);
+  scenes_.push_back({std::make_shared<SceneRunner>(std::move(scene), limits_, metrics_, LogPlaces{}, playing),
+                     std::nullopt});
+}
+
 void Host::start(scene::Scene scene, std::optional<long> nodes) {
   LogPlaces places;
   places.made = nodes.has_value();

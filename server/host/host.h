@@ -48,6 +48,8 @@ class Host {
 
   /// One of the server's own. Throws std::invalid_argument if there is a scene of that name already.
   void add(scene::Scene scene);
+  /// One that shows a recording, whose scene it is. Throws as add() and Recording::scene().
+  void play(const Playing& playing);
   /// Those in the folder of data that clients have made.
   void restore_made();
   /// A client's, from a document as `weft check` reads it. May take a second: its first step is tried.

@@ -21,11 +21,12 @@ constexpr std::size_t kTokenDigits = 32;
 
 }  // namespace
 
-LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
+LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits,
+                     const std::optional<Playing>& playing)
     : scene_(std::move(scene)),
       limits_(limits),
-      recorded_(scene_.simulation),
-      quality_(scene_.quality, scene_.simulation.integrator),
+      recorded_(scene_.simulation, playing),
+      quality_(playing ? scene::Quality{} : scene_.quality, scene_.simulation.integrator),
       effects_(scene_.simulation.effects) {
   for (const Cloth<float>& cloth : simulation_.cloths()) {
     finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
@@ -34,6 +35,10 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits)
   frame_stride_ =
       std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
   unseen_steps_ = std::max(1, static_cast<int>(std::lround(kUnseenTime / scene_.simulation.time_step)));
+  if (plays()) {
+    take_over_played();
+    told_ = told();
+  }
   find_bounds();
   find_range();
   encoder_.capture(simulation_, {});
@@ -121,7 +126,7 @@ bool LiveScene::nobody_placed() const {
 }
 
 void LiveScene::request_levels() {
-  if (seats_.empty()) return;
+  if (seats_.empty() || plays()) return;
   std::vector<int> wanted(simulation_.cloths().size(), 0);
   const bool all = nobody_placed();
   for (const Seat& seat : seats_) {
@@ -204,6 +209,19 @@ bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || wait
 
 void LiveScene::step() {
   for (Seat& seat : seats_) look(seat, 1);
+  if (plays()) {
+    play_step();
+  } else {
+    simulate_step();
+  }
+  find_bounds();
+  const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
+  state_newer_ = true;
+  if (asked_for || simulation_.step_count() % static_cast<std::uint64_t>(frame_stride_) == 0)
+    frame_due_ = true;
+}
+
+void LiveScene::simulate_step() {
   request_levels();
   recompose(std::exchange(recompose_, Recompose::nothing));
   limit_work();
@@ -214,12 +232,7 @@ void LiveScene::step() {
   const bool as_asked = std::all_of(cloths.begin(), cloths.end(),
                                     [](const Cloth<float>& cloth) { return cloth.steps_as_asked(); });
   if (as_asked) quality_.stepped(simulation_.profile().total * 1e3);  // no other step tells what it takes
-  find_bounds();
   remove_lost_balls();
-  const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
-  state_newer_ = true;
-  if (asked_for || simulation_.step_count() % static_cast<std::uint64_t>(frame_stride_) == 0)
-    frame_due_ = true;
 }
 
 void LiveScene::recompose(Recompose what) {
@@ -242,7 +255,7 @@ void LiveScene::set_slow(bool slow) {
 void LiveScene::tell_guard_events() {
   for (GuardLog::Notice& notice : guard_.stepped(simulation_)) {
     tell_all(protocol::notice_text(notice.code, notice.message));
-    guard_texts_.push_back(std::move(notice.message));
+    warnings_.push_back(std::move(notice.message));
   }
 }
 

@@ -36,7 +36,9 @@ class LiveScene {
   /// loses nothing. Counted in steps, so that it is the same when commands are made again.
   static constexpr double kUnseenTime = 1.0;
 
-  LiveScene(scene::Scene scene, const protocol::Limits& limits);
+  /// `playing`: a recording of the scene that is shown in place of a simulation of its own. It can be
+  /// watched, paused, stepped and begun anew; what would change it is refused.
+  LiveScene(scene::Scene scene, const protocol::Limits& limits, const std::optional<Playing>& playing = {});
 
   /// A viewer came, as `visit` (Viewer::enter): it is sent `scene`, and a frame at the next publish().
   void add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit);
@@ -57,7 +59,7 @@ class LiveScene {
   /// One step, at the finest level that any viewer needs.
   void step();
   /// Somebody wishes for a quality or asks for the cost, which have to be studied first.
-  bool wants_study() const { return quality_.wants_study() && !seats_.empty(); }
+  bool wants_study() const { return quality_.wants_study() && !seats_.empty() && !plays(); }
   /// What is to be studied: the scene, with the effects that are on, and materials and friction as they are.
   SimulationDescription studied() const;
   /// Changes when what is to be studied does: a study of something else is of no use.
@@ -82,8 +84,8 @@ class LiveScene {
   std::uint32_t epoch() const { return epoch_; }
   bool paused() const { return paused_; }
   bool slow() const { return slow_; }
-  /// What viewers were told of the step guard since the last call, for the log.
-  std::vector<std::string> take_guard_texts() { return std::exchange(guard_texts_, {}); }
+  /// What the log is to tell that has happened since the last call.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
   SceneMetrics::Guard guard_counts() const { return guard_.counts(); }
   /// How many viewers have their finest cloth at each level, from 0.
   std::vector<int> viewers_by_level() const;
@@ -132,6 +134,19 @@ class LiveScene {
   Outcome carry_out(const protocol::Reset& reset, Seat& seat);
   Outcome carry_out(const protocol::Step& step, Seat& seat);
 
+  bool plays() const { return recorded_.replay() != nullptr; }
+  /// Why a recording that is played does not take the command; nothing if it does.
+  std::optional<protocol::Error> fixed_by_recording(const SceneCommand& command) const;
+  void simulate_step();
+  void play_step();
+  /// Viewers are told what the recording's commands have changed.
+  void follow_played();
+  /// Effects and materials are those of the simulation.
+  void take_over_played();
+  /// All that viewers are told by events, to be compared.
+  nlohmann::json told() const;
+  /// What follows when the simulation is at its beginning again: in a new epoch.
+  void begun_anew();
   /// A ball larger than the scene's largest cloth is none to play with, but swallows it.
   std::optional<protocol::Error> too_large(double radius) const;
   /// What the viewer put before was taken away not long ago.
@@ -181,6 +196,10 @@ class LiveScene {
   void balls_changed(const char* kind, std::uint64_t frame, BallId id);
   void pins_changed(const char* kind, std::size_t cloth);
   void wind_changed();
+  void effect_set(const std::string& effect);
+  void effect_tuned(const std::string& effect);
+  void cloth_tuned(std::size_t cloth);
+  void frictions_changed();
   void tell_all(std::string text, std::string_view key = {});
   void tell_curve();          ///< to those who asked, once it is known
   bool frame_wanted() const;  ///< by all, or by one
@@ -193,8 +212,10 @@ class LiveScene {
   FrameEncoder encoder_;
   SceneQuality quality_;
   GuardLog guard_;
-  std::vector<std::string> guard_texts_;
+  std::vector<std::string> warnings_;
   EventQueue events_;
+  nlohmann::json told_;             ///< told(), of a recording that is played
+  bool divergence_warned_ = false;  ///< the recording does not lead to the states that it tells
   std::vector<Seat> seats_;
   struct LostSeat : HeldSeat {
     TimePoint until;

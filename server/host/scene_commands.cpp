@@ -30,8 +30,10 @@ std::optional<std::string> LiveScene::apply(const std::shared_ptr<Viewer>& viewe
   if (seat == seats_.end()) return std::nullopt;
   // Most commands are felt in the next step; those that are not say so.
   takes_effect_ = simulation_.step_count() + 1;
+  const auto fixed = fixed_by_recording(request.command);
   Outcome outcome =
-      std::visit([&](const auto& command) { return carry_out(command, *seat); }, request.command);
+      fixed ? Outcome(*fixed)
+            : std::visit([&](const auto& command) { return carry_out(command, *seat); }, request.command);
   if (auto* error = std::get_if<Error>(&outcome)) {
     error->re = request.id;
     viewer->send(make_text(protocol::error_text(*error)));
@@ -83,10 +85,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ClothTune& tuning, Seat&
   if (const auto error = tune(tuning, effects_, material)) return *error;
   if (material == before) return json::object();
   composition_changed(Recompose::materials);
-  events_.add("cloth.tune", std::to_string(tuning.cloth), takes_effect_, [this, cloth = tuning.cloth] {
+  cloth_tuned(tuning.cloth);
+  return json::object();
+}
+
+void LiveScene::cloth_tuned(std::size_t cloth) {
+  events_.add("cloth.tune", std::to_string(cloth), takes_effect_, [this, cloth] {
     return json{{"cloth", cloth}, {"material", material_json(materials_[cloth], effects_)}};
   });
-  return json::object();
 }
 
 std::optional<Error> LiveScene::missing_effect(const std::string& effect) const {
@@ -106,10 +112,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
   }
   effects_off_ = std::move(off);
   composition_changed(Recompose::effects);
-  events_.add("effect", "", takes_effect_, [this, set] {
-    return json{{"effect", set.effect}, {"on", set.on}, {"effects_off", effects_off_}};
-  });
+  effect_set(set.effect);
   return json::object();
+}
+
+void LiveScene::effect_set(const std::string& effect) {
+  events_.add("effect", "", takes_effect_, [this, effect] {
+    return json{{"effect", effect}, {"on", !is_off(effect)}, {"effects_off", effects_off_}};
+  });
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat&) {
@@ -118,10 +128,14 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat
   if (const auto error = tune(tuning, effects_)) return *error;
   if (parameters_json(effects_) == before) return json::object();
   if (!is_off(tuning.effect)) composition_changed(Recompose::effects);
-  events_.add("tune", tuning.effect, takes_effect_, [this, effect = tuning.effect] {
+  effect_tuned(tuning.effect);
+  return json::object();
+}
+
+void LiveScene::effect_tuned(const std::string& effect) {
+  events_.add("tune", effect, takes_effect_, [this, effect] {
     return json{{"effect", effect}, {"parameters", parameters_json(effects_)[effect]}};
   });
-  return json::object();
 }
 
 void LiveScene::wind_changed() {
@@ -201,7 +215,13 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   effects_ = scene_.simulation.effects;
   effects_off_.clear();
   for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i] = scene_.simulation.cloths[i].material;
+  if (plays()) take_over_played();
   if (composition() != before) study_outdated();
+  begun_anew();
+  return json{{"epoch", epoch_}};
+}
+
+void LiveScene::begun_anew() {
   recompose_ = Recompose::nothing;  // it is as its description has it
   for (Seat& seat : seats_) {
     seat.grabs.clear();
@@ -213,7 +233,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   guard_ = {};
   waiting_steps_ = 0;
   ++epoch_;
-  takes_effect_ = 0;
+  takes_effect_ = simulation_.step_count();
   find_bounds();
   for (Seat& seat : seats_) {
     seat.policy_levels.clear();
@@ -221,9 +241,9 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
     look(seat);
   }
   state_changed();
-  events_.add("reset", "", 0, [this] {
+  events_.add("reset", "", takes_effect_, [this] {
     return json{{"epoch", epoch_},
-                {"time", 0.0},
+                {"time", simulation_.time()},
                 {"paused", paused_},
                 {"wind", wind_json(simulation_.wind())},
                 {"balls", balls_json(simulation_.colliders())},
@@ -233,7 +253,6 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
                 {"pins", pins_json(simulation_.cloths())}};
   });
   request_levels();
-  return json{{"epoch", epoch_}};
 }
 
 }  // namespace weft::host

@@ -10,10 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "cloth/world/state.h"
-#include "cloth/world/state_hash.h"
 #include "host/live_scene.h"
-#include "record/replay.h"
+#include "record/last_state.h"
 
 namespace weft::host {
 namespace {
@@ -177,21 +175,9 @@ bool SceneLog::restore(LiveScene& live) {
 bool SceneLog::go_on_from(LiveScene& live, const fs::path& file) {
   try {
     const record::Recording recording = record::Recording::of_file(file.string());
-    const auto& head = recording.head();
-    if (head.value("weft", "") != metrics_.version())
-      throw std::invalid_argument("it is of another version of Weft, " + head.value("weft", "?"));
-    if (head.value("document", "") != scene_.document)
-      throw std::invalid_argument("it is of another scene by that name");
-    record::Replay replay(recording);
-    while (replay.step()) {
-    }
-    if (replay.hashes() == 0 || replay.service().empty())
-      throw std::invalid_argument("it has no whole state; " + recording.damage());
-    if (replay.divergence())
-      throw std::invalid_argument("after " + std::to_string(replay.divergence()->step) +
-                                  " steps it does not lead to the state that it tells");
-    live.go_on_from(save_state(replay.simulation()), replay.service(),
-                    std::chrono::steady_clock::now() + kSeatKept);
+    const record::LastState last = record::last_state(recording, metrics_.version(), scene_);
+    if (last.service.empty()) throw std::invalid_argument("it tells nothing of the service");
+    live.go_on_from(last.state, last.service, std::chrono::steady_clock::now() + kSeatKept);
     spdlog::info("scene {}: goes on at {:.3f} s, epoch {}, from {}{}", scene_.name, live.simulation().time(),
                  live.epoch(), file.string(),
                  recording.damage().empty() ? "" : ", of which " + recording.damage());

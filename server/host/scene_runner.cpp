@@ -39,7 +39,7 @@ struct SceneRunner::Task {
 };
 
 SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics,
-                         const LogPlaces& places)
+                         const LogPlaces& places, const std::optional<Playing>& playing)
     : name_(scene.name),
       title_(scene.title),
       cloths_(scene.simulation.cloths.size()),
@@ -49,7 +49,7 @@ SceneRunner::SceneRunner(scene::Scene scene, const protocol::Limits& limits, Met
       metrics_(metrics),
       scene_metrics_(metrics.of_scene(scene.name)),
       log_(places.empty() ? nullptr : std::make_unique<SceneLog>(scene, places, scene_metrics_)),
-      live_(std::make_unique<LiveScene>(std::move(scene), limits)),
+      live_(std::make_unique<LiveScene>(std::move(scene), limits, playing)),
       clock_(time_step_),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -173,7 +173,7 @@ bool SceneRunner::step_if_due() {
   if (!live_->wants_step() || (running_ && Clock::now() < clock_.next())) return false;
   live_->step();
   count_step();
-  for (const std::string& text : live_->take_guard_texts()) spdlog::warn("scene {}: {}", name_, text);
+  for (const std::string& text : live_->take_warnings()) spdlog::warn("scene {}: {}", name_, text);
   if (!running_) {
     ++steps_made_;
     return true;

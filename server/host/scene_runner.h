@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/metrics.h"
+#include "host/playing.h"
 #include "host/scene_log.h"
 #include "host/scene_request.h"
 #include "host/step_clock.h"
@@ -33,9 +34,9 @@ class SceneRunner {
   /// Requests that may wait for the step boundary.
   static constexpr std::size_t kMaxWaiting = 1024;
 
-  /// Counts in `metrics`, which must outlive it.
+  /// Counts in `metrics`, which must outlive it. `playing`: as in LiveScene.
   SceneRunner(scene::Scene scene, const protocol::Limits& limits, Metrics& metrics,
-              const LogPlaces& places = {});
+              const LogPlaces& places = {}, const std::optional<Playing>& playing = {});
   /// Interrupts the step in hand, and waits for the thread.
   ~SceneRunner();
   SceneRunner(const SceneRunner&) = delete;

@@ -191,11 +191,15 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
   }
   if (frictions() == before) return json::object();
   if (composition() != studied_before) study_outdated();
+  frictions_changed();
+  return json::object();
+}
+
+void LiveScene::frictions_changed() {
   events_.add("friction", "", takes_effect_, [this] {
     return json{{"balls", balls_json(simulation_.colliders())},
                 {"frictions", frictions_json(simulation_.colliders())}};
   });
-  return json::object();
 }
 
 }  // namespace weft::host

@@ -20,6 +20,7 @@ void Replay::do_what_is_due() {
         made_ = 0;
       } else {
         std::visit([&](const auto& each) { each.carry_out(simulation_); }, *command);
+        ++commands_;
         anywhere_ = false;
       }
     } else if (const auto* state = std::get_if<StateThen>(&event)) {
@@ -48,7 +49,7 @@ void Replay::diverged(std::uint64_t recorded, std::uint64_t found) {
 }
 
 bool Replay::step() {
-  if (next_ == recording_.events().size()) return false;
+  if (at_end()) return false;
   simulation_.step();
   anywhere_ = false;
   ++made_;

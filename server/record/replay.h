@@ -18,6 +18,9 @@ class Replay {
   std::uint64_t steps() const { return steps_; }
   /// False where nothing is left.
   bool step();
+  bool at_end() const { return next_ == recording_.events().size(); }
+  /// Commands done so far, by steps and seeks.
+  std::uint64_t commands() const { return commands_; }
   /// To so many steps since the beginning, or to the end: by the last state before, if it is ahead.
   void seek(std::uint64_t steps);
   /// What was told of the service last; empty if nothing was.
@@ -43,7 +46,7 @@ class Replay {
   Simulation<float> simulation_;
   std::size_t next_ = 0;    ///< event
   std::uint32_t made_ = 0;  ///< of the event's steps
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_ = 0, commands_ = 0;
   bool anywhere_ = true;  ///< the simulation is not where the recording is; a state comes next
   std::string_view service_;
   std::size_t hashes_ = 0;

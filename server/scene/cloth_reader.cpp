@@ -15,7 +15,7 @@ const Fabric* read_fabric(const json& value, const std::string& path, Report& re
   if (!fabric) {
     std::vector<std::string_view> names;
     for (const Fabric& each : fabrics()) names.push_back(each.name);
-    report.refuse(value, path, "a fabric, one of " + quoted_list(names));
+    report.refuse_name(value, path, "a fabric, one of " + quoted_list(names), names);
   }
   return fabric;
 }
@@ -134,7 +134,7 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report) {
     if (value == each.name) return each.region;
     names.emplace_back(each.name);
   }
-  report.refuse(value, path, "one of " + quoted_list(names) + " or an object with u and v");
+  report.refuse_name(value, path, "one of " + quoted_list(names) + " or an object with u and v", names);
   return region;
 }
 

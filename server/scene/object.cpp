@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/document.h"
+#include "scene/nearest_name.h"
 
 namespace weft::scene {
 namespace {
@@ -55,6 +56,12 @@ void Report::refuse(const json& value, const std::string& path, const std::strin
   const auto overflow = overflows_.find(path);
   const bool overflowed = overflow != overflows_.end() && value.is_null();
   add(path, "is " + (overflowed ? overflow->second : shown(value)) + "; must be " + expected);
+}
+
+void Report::refuse_name(const json& value, const std::string& path, const std::string& expected,
+                         const std::vector<std::string_view>& names) {
+  const auto* given = value.get_ptr<const json::string_t*>();
+  refuse(value, path, expected + (given != nullptr ? did_you_mean(*given, names) : ""));
 }
 
 std::string quoted_list(const std::vector<std::string_view>& names) {
@@ -114,7 +121,8 @@ Object::~Object() {
   if (!value_ || ignore_rest_) return;
   for (const auto& item : value_->items()) {
     if (std::find(known_.begin(), known_.end(), item.key()) == known_.end()) {
-      report_.add(path(item.key()), "unknown key; known here: " + list(known_));
+      report_.add(path(item.key()), "unknown key; known here: " + list(known_) +
+                                        did_you_mean(item.key(), {known_.begin(), known_.end()}));
     }
   }
 }
@@ -187,8 +195,8 @@ int Object::choice(const char* key, std::initializer_list<const char*> names) {
     const auto found = std::find(names.begin(), names.end(), value->get_ref<const std::string&>());
     if (found != names.end()) return static_cast<int>(found - names.begin());
   }
-  report_.refuse(*value, path(key),
-                 (names.size() > 1 ? "one of " : "") + quoted_list({names.begin(), names.end()}));
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  report_.refuse_name(*value, path(key), (known.size() > 1 ? "one of " : "") + quoted_list(known), known);
   return -1;
 }
 

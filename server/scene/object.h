@@ -32,6 +32,9 @@ class Report {
   void add(std::string path, std::string message);
   /// "is VALUE; must be EXPECTED".
   void refuse(const nlohmann::json& value, const std::string& path, const std::string& expected);
+  /// The same of what must be one of the names, and which of them was probably meant.
+  void refuse_name(const nlohmann::json& value, const std::string& path, const std::string& expected,
+                   const std::vector<std::string_view>& names);
   std::size_t count() const { return problems_.size(); }
   std::vector<Problem> take() { return std::move(problems_); }
 

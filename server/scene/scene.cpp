@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/document.h"
+#include "scene/nearest_name.h"
 #include "scene/overrides.h"
 #include "scene/readers.h"
 
@@ -27,10 +28,15 @@ std::string name_of_file(const std::string& file) {
   return name.empty() ? "scene" : name;
 }
 
-std::string preset_names() {
+/// The presets, and which of them was probably meant.
+std::string preset_names(const std::string& given) {
   std::string text;
-  for (const Preset& preset : presets()) text += (text.empty() ? "" : ", ") + std::string(preset.name);
-  return text;
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) {
+    text += (text.empty() ? "" : ", ") + std::string(preset.name);
+    names.push_back(preset.name);
+  }
+  return text + did_you_mean(given, names);
 }
 
 Result read_text(std::string_view text, std::string_view name, const SceneFolder& folder,
@@ -76,8 +82,8 @@ Result load(const std::string& preset_or_file, const std::vector<std::string>& o
   } while (file && text.size() <= kMaxTextBytes);
   if (!file && !file.eof()) {
     return std::vector<Problem>{{"", preset_or_file + ": " + std::strerror(errno) +
-                                         " (neither a file nor a preset; the presets are " + preset_names() +
-                                         ")"}};
+                                         " (neither a file nor a preset; the presets are " +
+                                         preset_names(preset_or_file) + ")"}};
   }
   return read_text(text, name_of_file(preset_or_file), std::filesystem::path(preset_or_file).parent_path(),
                    overrides);

@@ -5,8 +5,9 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
-#include "cli/mesh_writer.h"
+#include "cli/writers/scene_writer.h"
 
 namespace weft::cli::test {
 
@@ -26,6 +27,17 @@ class OutputTest : public testing::Test {
     std::ifstream file(folder_ / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
     return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// Frames of one cloth, and of a body each, if there are `poses`.
+  void write(const std::string& name, const std::vector<MeshFrame>& frames,
+             const std::vector<BodyMesh>& bodies = {}, const std::vector<Pose>& poses = {}) const {
+    const auto writer = SceneWriter::open(path(name), {"scene", {"cloth"}, bodies, 1.0 / 60});
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      SceneFrame frame{{frames[i]}, {}};
+      if (!poses.empty()) frame.bodies = {poses[i]};
+      writer->write(frame);
+    }
+    writer->finish();
   }
 
  private:

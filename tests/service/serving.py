@@ -31,12 +31,12 @@ def head_of(method, target, fields):
 
 
 class Server:
-    """`weft serve` on a free port, ended when the test is."""
+    """`weft serve`, or another `command` that serves, on a free port, ended when the test is."""
 
-    def __init__(self, *arguments, port=0):
+    def __init__(self, *arguments, port=0, command="serve"):
         self.log_lines = []
         self._log_grew = threading.Condition()
-        self.process = subprocess.Popen([BINARY, "serve", "--port", str(port), *map(str, arguments)],
+        self.process = subprocess.Popen([BINARY, command, "--port", str(port), *map(str, arguments)],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self._log_reader = threading.Thread(target=self._read_log, daemon=True)
         self._log_reader.start()

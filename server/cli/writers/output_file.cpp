@@ -27,6 +27,20 @@ void append_word(std::string& bytes, std::uint32_t word) {
     bytes += static_cast<char>(static_cast<unsigned char>(word >> shift));
 }
 
+void append_word_big(std::string& bytes, std::uint32_t word) {
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(static_cast<unsigned char>(word >> shift));
+}
+
+template <class Word>
+void append_all(std::string& bytes, std::span<const Word> values) {
+  if constexpr (std::endian::native == std::endian::little) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  } else {
+    for (const Word value : values) append_word(bytes, std::bit_cast<std::uint32_t>(value));
+  }
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& path) {
   throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
 }
@@ -99,5 +113,14 @@ void append_bytes(std::string& bytes, float value) {
   append_word(bytes, std::bit_cast<std::uint32_t>(value));
 }
 void append_bytes(std::string& bytes, int value) { append_word(bytes, static_cast<std::uint32_t>(value)); }
+void append_bytes(std::string& bytes, std::uint32_t value) { append_word(bytes, value); }
+void append_bytes(std::string& bytes, std::span<const float> values) { append_all(bytes, values); }
+void append_bytes(std::string& bytes, std::span<const std::uint32_t> values) { append_all(bytes, values); }
+void append_bytes_big(std::string& bytes, float value) {
+  append_word_big(bytes, std::bit_cast<std::uint32_t>(value));
+}
+void append_bytes_big(std::string& bytes, int value) {
+  append_word_big(bytes, static_cast<std::uint32_t>(value));
+}
 
 }  // namespace weft::cli

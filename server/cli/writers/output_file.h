@@ -1,7 +1,9 @@
 #pragma once
 /// A file that is whole or not there, and says so when it could not be written.
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -47,5 +49,11 @@ void append_coordinate(std::string& text, double value);
 /// Appends a value's bytes, little endian.
 void append_bytes(std::string& bytes, float value);
 void append_bytes(std::string& bytes, int value);
+void append_bytes(std::string& bytes, std::uint32_t value);
+void append_bytes(std::string& bytes, std::span<const float> values);
+void append_bytes(std::string& bytes, std::span<const std::uint32_t> values);
+/// The same, big endian.
+void append_bytes_big(std::string& bytes, float value);
+void append_bytes_big(std::string& bytes, int value);
 
 }  // namespace weft::cli

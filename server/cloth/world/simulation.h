@@ -54,6 +54,8 @@ class Simulation {
   /// nullptr where cloths pass through themselves.
   const ClothContact<Real>* layers() const { return layers_.get(); }
   const Wind& wind() const { return air_.wind(); }
+  /// Those that are simulated now.
+  const std::vector<EffectDescription>& effects() const { return effects_; }
   Vec3 gravity() const { return gravity_; }
   /// Energies and strain, computed now: not part of a step.
   ClothReport report(std::size_t cloth) const;

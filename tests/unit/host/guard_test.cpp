@@ -79,8 +79,8 @@ TEST_F(Unstable, ScenesGoOnAndTell) {
   const json guard = stats().at("guard");
   EXPECT_GE(guard.at("redone"), told("recovered"));
   EXPECT_EQ(guard.at("frozen"), 0);
-  EXPECT_EQ(static_cast<int>(live.take_guard_texts().size()), told("recovered"));
-  EXPECT_TRUE(live.take_guard_texts().empty());
+  EXPECT_EQ(static_cast<int>(live.take_warnings().size()), told("recovered"));
+  EXPECT_TRUE(live.take_warnings().empty());
   // At most one in 60 steps.
   EXPECT_LE(told("recovered"), 1 + 200 / 60);
 }

@@ -1,9 +1,9 @@
-#include "cli/mesh_writer.h"
+#include "cli/writers/mesh_frame.h"
 
-#include <filesystem>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <stdexcept>
-
-#include "cli/writers/writers.h"
+#include <string>
 
 namespace weft::cli {
 namespace {
@@ -41,6 +41,23 @@ std::vector<float> halved_cells(const std::vector<float>& values, int rows, int 
   return fine;
 }
 
+/// Of a grid of `cols` columns of faces, on one with twice or half as many.
+std::vector<std::uint32_t> torn_on(const std::vector<std::uint32_t>& torn, std::uint32_t cols, bool finer) {
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t face : torn) {
+    const std::uint32_t r = face / cols, c = face % cols;
+    if (finer) {
+      const std::uint32_t first = 2 * r * 2 * cols + 2 * c;
+      result.insert(result.end(), {first, first + 1, first + 2 * cols, first + 2 * cols + 1});
+    } else {
+      result.push_back(r / 2 * (cols / 2) + c / 2);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 }  // namespace
 
 MeshFrame on_grid(const MeshFrame& frame, int rows, int cols) {
@@ -61,25 +78,35 @@ MeshFrame on_grid(const MeshFrame& frame, int rows, int cols) {
       *values = finer ? halved_cells(*values, result.rows, result.cols)
                       : every_second(*values, result.rows, result.cols);
     }
+    result.torn_faces = torn_on(result.torn_faces, static_cast<std::uint32_t>(result.cols - 1), finer);
     result.rows = finer ? 2 * result.rows - 1 : (result.rows + 1) / 2;
     result.cols = finer ? 2 * result.cols - 1 : (result.cols + 1) / 2;
   }
   return result;
 }
 
-std::unique_ptr<MeshWriter> MeshWriter::open(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".obj") return open_obj(path);
-  if (extension == ".pc2") return open_pc2(path);
-  if (extension == ".csv") return open_csv(path);
-  if (extension == ".glb") return open_glb(path);
-  throw std::runtime_error(path + ": unknown extension; .obj, .pc2, .csv and .glb can be written");
+std::array<std::uint32_t, 4> corners_of(const MeshFrame& frame, int r, int c) {
+  const auto cols = static_cast<std::uint32_t>(frame.cols);
+  const std::uint32_t corner = static_cast<std::uint32_t>(r) * cols + static_cast<std::uint32_t>(c);
+  return {corner, corner + cols, corner + cols + 1, corner + 1};
 }
 
-std::string MeshWriter::path_for_cloth(const std::string& path, const std::string& name) {
-  std::filesystem::path result = path;
-  result.replace_filename(result.stem().string() + "-" + name + result.extension().string());
-  return result.string();
+std::vector<float> normals_of(const MeshFrame& frame) {
+  using Column = Eigen::Map<Eigen::Vector3f>;
+  using ConstColumn = Eigen::Map<const Eigen::Vector3f>;
+  std::vector<float> normals(frame.positions.size(), 0.0f);
+  for_each_face(frame, [&](int r, int c) {
+    const auto corners = corners_of(frame, r, c);
+    const auto at = [&](std::size_t i) { return ConstColumn(&frame.positions[std::size_t{3} * corners[i]]); };
+    // Half of it is the face's area, whether it is flat or not.
+    const Eigen::Vector3f area = (at(2) - at(0)).cross(at(3) - at(1));
+    for (const std::uint32_t corner : corners) Column(&normals[std::size_t{3} * corner]) += area;
+  });
+  for (std::size_t i = 0; i < normals.size(); i += 3) {
+    Column normal(&normals[i]);
+    normal = normal.squaredNorm() > 0 ? normal.stableNormalized() : Eigen::Vector3f(0, 1, 0);
+  }
+  return normals;
 }
 
 }  // namespace weft::cli
