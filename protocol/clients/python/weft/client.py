@@ -157,7 +157,7 @@ class Client(Commands):
                 await self.post("ack", f=frame.stamp.f)
         return frame
 
-    async def next_frame(self, accept: typing.Callable[[Frame], bool] = lambda frame: True,
+    async def next_frame(self, accept: typing.Callable[[Frame], object] = lambda frame: True,
                          timeout: float | None = None) -> Frame:
         """The next frame for which `accept` is true, within `timeout` s (default: that of the connection)."""
         async def search() -> Frame:

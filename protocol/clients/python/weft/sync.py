@@ -95,7 +95,7 @@ class Scene(SyncCommands):
         except StopAsyncIteration:
             raise StopIteration from None
 
-    def next_frame(self, accept: typing.Callable[[Frame], bool] = lambda frame: True, timeout: float | None = None) -> Frame:
+    def next_frame(self, accept: typing.Callable[[Frame], object] = lambda frame: True, timeout: float | None = None) -> Frame:
         """The next frame for which `accept` is true, within `timeout` s (default: that of the connection)."""
         return self._wait(self._client.next_frame(accept, timeout))
 
