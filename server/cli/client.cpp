@@ -16,8 +16,8 @@
 #include "cli/writers/scene_writer.h"
 #include "cloth/core/clock.h"
 #include "net/client.h"
+#include "net/scene_client.h"
 #include "protocol/frame.h"
-#include "protocol/message.h"
 
 namespace weft::cli {
 namespace {
@@ -80,23 +80,26 @@ class Conversation {
   Conversation(const ClientOptions& options, const net::Url& url)
       : options_(options),
         script_(options.script.empty() ? std::vector<Timed>{} : read_script(options.script)),
-        client_(url, kConnectTime, options.security) {}
+        client_(url, {.limit = kConnectTime,
+                      .security = options.security,
+                      .on_message = [this](const json& message, std::string_view text) {
+                        take_control(message, text);
+                      }}) {}
 
   int run() {
     start_ = Clock::now();
-    // Frames come only as fast as they are taken in here.
-    command(protocol::Hello{"weft client", {"flow.ack"}, 4});
-    if (options_.distance) command(protocol::Camera{options_.distance, std::nullopt});
-    if (!options_.eye.empty()) command(protocol::Camera{std::nullopt, vector_of(options_.eye)});
-    if (!options_.wind.empty()) command(protocol::WindSet{vector_of(options_.wind), options_.wind[3]});
+    if (options_.distance) client_.post(protocol::Camera{options_.distance, std::nullopt});
+    if (!options_.eye.empty()) client_.post(protocol::Camera{std::nullopt, vector_of(options_.eye)});
+    if (!options_.wind.empty()) client_.post(protocol::WindSet{vector_of(options_.wind), options_.wind[3]});
     if (!options_.ball.empty()) {
-      command(protocol::BallAdd{.position = vector_of(options_.ball), .radius = options_.ball[3]});
-      if (!options_.velocity.empty()) throws_when_added_ = last_id_;
+      const std::int64_t id =
+          client_.post(protocol::BallAdd{.position = vector_of(options_.ball), .radius = options_.ball[3]});
+      if (!options_.velocity.empty()) throws_when_added_ = id;
     }
     try {
       while (!finished()) {
         send_due();
-        if (auto message = client_.receive(next_event())) take(*message);
+        if (const auto received = client_.next_frame(next_event())) take_frame(*received);
       }
       client_.close();
     } catch (const net::ConnectionError&) {
@@ -131,25 +134,12 @@ class Conversation {
 
   void send_due() {
     for (; sent_ < script_.size() && script_[sent_].at <= elapsed(); ++sent_) {
-      json& message = script_[sent_].message;
       // With an id it is answered, so that a refusal is noticed and an agreement printed.
-      if (!message.contains("id")) message["id"] = ++last_id_;
-      client_.send(message.dump());
+      client_.post(script_[sent_].message);
     }
   }
 
-  void command(const protocol::Command& command) { client_.send(protocol::to_text({++last_id_, command})); }
-
-  void take(const net::Client::Message& message) {
-    if (message.binary) {
-      take_frame(message.bytes);
-    } else {
-      take_control(message.text());
-    }
-  }
-
-  void take_control(std::string_view text) {
-    const json message = json::parse(text);
+  void take_control(const json& message, std::string_view text) {
     const std::string op = message.at("op");
     if (op == "scene") enter(message);
     if (op == "ok" && message.at("re") == throws_when_added_) throw_ball(message.at("ball"));
@@ -174,16 +164,12 @@ class Conversation {
 
   void throw_ball(std::uint32_t ball) {
     thrown_ = true;
-    command(protocol::BallThrow{ball, vector_of(options_.velocity)});
+    client_.post(protocol::BallThrow{ball, vector_of(options_.velocity)});
   }
 
-  void take_frame(const std::vector<std::uint8_t>& bytes) {
-    protocol::Frame frame;
-    std::string error;
-    if (!protocol::decode_frame(bytes, frame, error)) throw std::runtime_error("a malformed frame: " + error);
-    client_.send(protocol::to_text({std::nullopt, protocol::Ack{frame.stamp.frame}}));
-    write(frame);
-    if (!options_.quiet) print(frame, bytes.size());
+  void take_frame(const net::SceneClient::Received& received) {
+    write(received.frame);
+    if (!options_.quiet) print(received.frame, received.bytes);
     ++frames_;
   }
 
@@ -215,10 +201,9 @@ class Conversation {
 
   const ClientOptions& options_;
   std::vector<Timed> script_;
-  net::Client client_;
+  net::SceneClient client_;
   Clock::time_point start_;
-  std::size_t sent_ = 0;  ///< of the script
-  std::int64_t last_id_ = 0;
+  std::size_t sent_ = 0;                ///< of the script
   std::int64_t throws_when_added_ = 0;  ///< id of the ball.add whose ball is to be thrown
   bool thrown_ = false, refused_ = false;
   int frames_ = 0;

@@ -24,3 +24,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/outside -B ${WORK_DIR}/outside -G Ninja -D
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/outside)
 run(${WORK_DIR}/outside/outside)
 run(${WORK_DIR}/outside/readme)
+if(EXISTS ${BUILD_DIR}/weft)
+  run(${CMAKE_COMMAND} -E env WEFT_BINARY=${BUILD_DIR}/weft PYTHONDONTWRITEBYTECODE=1
+      /usr/bin/python3 ${SOURCE_DIR}/viewer_check.py ${WORK_DIR}/outside/viewer)
+endif()

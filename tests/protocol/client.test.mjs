@@ -1,7 +1,7 @@
 // The JavaScript client against a small server of its own: what it sends, acknowledges, refuses, and how it comes back.
 import assert from 'node:assert/strict';
 import { once } from 'node:events';
-import { copyFileSync, mkdtempSync, rmSync, symlinkSync } from 'node:fs';
+import { cpSync, mkdtempSync, rmSync, symlinkSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
@@ -89,8 +89,7 @@ test('connects with hello, and knows the welcome and the scene', async () => {
 test('in Node the package ws is taken from where the client is installed', { skip: 'WebSocket' in globalThis && 'the platform has a WebSocket' }, async () => {
   const folder = mkdtempSync(path.join(tmpdir(), 'weft-client-'));
   open.push(async () => rmSync(folder, { recursive: true }));
-  for (const file of ['weft.js', 'package.json'])
-    copyFileSync(new URL(`../../protocol/clients/js/${file}`, import.meta.url), path.join(folder, file));
+  cpSync(new URL('../../protocol/clients/js', import.meta.url), folder, { recursive: true, filter: (name) => !name.endsWith('node_modules') });
   symlinkSync(fileURLToPath(new URL('../node_modules', import.meta.url)), path.join(folder, 'node_modules'));
   const installed = await import(pathToFileURL(path.join(folder, 'weft.js')).href);
   const server = await serve();

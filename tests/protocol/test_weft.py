@@ -12,6 +12,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol" / "clients" / "python"))
+import numpy as np  # noqa: E402
 import weft  # noqa: E402
 import websockets  # noqa: E402
 
@@ -78,6 +79,20 @@ class Vectors(unittest.TestCase):
         cloth = weft.decode_frame(frame_bytes("small")).cloths[0]  # computed by hand: hand_frame.json
         self.assertEqual([cloth.at(0, 0), cloth.at(0, 1), cloth.at(1, 0), cloth.at(1, 1)],
                          [(0, 1, 0), (1, 1, 0), (0, 0, 0), (1, 0, 255)])
+
+    def test_positions_are_one_array(self):
+        cloth = weft.decode_frame(frame_bytes("small")).cloths[0]  # as above
+        self.assertEqual((cloth.positions.dtype, cloth.positions.flags["C_CONTIGUOUS"], cloth.rows, cloth.cols), (np.float32, True, 2, 2))
+        np.testing.assert_array_equal(cloth.positions, [[[0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 0, 255]]])
+
+    def test_messages_take_numpy(self):
+        text = weft.message_text("ball.move", {"ball": np.int64(7), "position": np.float32([1, 2, 3])})
+        self.assertEqual(json.loads(text), {"op": "ball.move", "ball": 7, "position": [1, 2, 3]})
+        with self.assertRaises(weft.WeftError) as caught:
+            weft.message_text("ball.move", {"ball": 7, "position": np.array([1, 2, np.nan])})
+        self.assertEqual(caught.exception.code, "range")
+        with self.assertRaisesRegex(TypeError, "allowed are numbers"):
+            weft.message_text("ball.move", {"ball": {1, 2}})
 
     def test_builds_the_good_messages(self):
         for vector in MESSAGES["good"]:

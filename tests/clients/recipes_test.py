@@ -1,0 +1,132 @@
+"""The recipes of protocol/clients/README.md and the examples of the other READMEs, run as they stand there against a real server."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CLIENTS = ROOT / "protocol" / "clients"
+sys.path.insert(0, str(ROOT / "tests" / "service"))
+from serving import Server  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+MOST_LINES = 10  # of code
+LIMIT_S = 120    # far beyond what any takes
+ADDRESS = "127.0.0.1:8080"  # in the recipes
+WIND = [(0.0, 2.0), (0.5, 8.0), (1.0, 4.5)]  # s, m/s
+
+
+def recipes(language, document=CLIENTS / "README.md"):
+    """The blocks of code in a language, by the heading above each; "" where none of the second rank is above."""
+    sections = re.split(r"^## (.*)$", document.read_text(), flags=re.MULTILINE)
+    named = zip([""] + sections[1::2], sections[0::2])
+    return {name: block for name, text in named for block in re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)}
+
+
+def numbers(output):
+    """The numbers on each line."""
+    return [[float(word) for word in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?", line)] for line in output.splitlines()]
+
+
+class Recipes:
+    """What each recipe must do; `language`, `package` and `command` say in which way."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.server = Server("flag")
+        self.addCleanup(self.server.end)
+
+    def run_recipe(self, name, **where):
+        code = recipes(self.language, **where)[name]
+        self.assertLessEqual(len([line for line in code.splitlines() if line.strip()]), MOST_LINES)
+        self.assertIn(ADDRESS, code)
+        program = self.folder / f"recipe.{self.suffix}"
+        program.write_text(code.replace(ADDRESS, f"127.0.0.1:{self.server.port}"))
+        done = subprocess.run([*self.command, program], cwd=self.folder, env=self.environment, capture_output=True, text=True,
+                              timeout=LIMIT_S)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return numbers(done.stdout)
+
+    def test_the_readme(self):
+        self.run_recipe("Drive it from a program", document=ROOT / "README.md")
+        (written,) = self.folder.glob("seen.*")
+        seen = written.read_text().replace("\n", ",")
+        # flag.json: level 6 within 3 m: 65 x 65 nodes; 60 frames.
+        expected = 3 * 65 * 65 if written.suffix == ".json" else 60 * 3
+        self.assertEqual(len(seen.strip(",").split(",")), expected)
+
+    def test_the_package_s_readme(self):
+        self.run_recipe("", document=CLIENTS / self.package / "README.md")
+
+    def test_follow_a_camera(self):
+        # flag.json: levels 6, 5, 4 within 3 m, within 8 m, beyond; a level has 2^level cells along a side.
+        nodes = {12: (4, 17, 17), 5: (5, 33, 33), 0.8: (6, 65, 65)}
+        for distance, *told in self.run_recipe("Follow a camera"):
+            self.assertEqual(tuple(told[:3]), nodes.pop(distance))
+        self.assertEqual(nodes, {})
+
+    def test_throw_balls(self):
+        told = self.run_recipe("Throw balls")
+        self.assertEqual(len(told), 3)
+        for _, _, _, z in told:
+            self.assertLess(z, 0.9)  # from 1 m at -5 m/s: on its way for half a second or until the cloth
+
+    def test_drive_wind_from_data(self):
+        (self.folder / "wind.csv").write_text("".join(f"{time},{speed}\n" for time, speed in WIND))
+        told = self.run_recipe("Drive wind from data")
+        self.assertEqual([speed for _, speed in told], [speed for _, speed in WIND])
+        for (since, _), (time, _) in zip(told, WIND):
+            self.assertGreaterEqual(since, time - 1e-9)
+
+
+class Python(Recipes, unittest.TestCase):
+    language, package, suffix, command = "python", "python", "py", ["/usr/bin/python3"]
+    environment = {**os.environ, "PYTHONPATH": str(CLIENTS / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def test_all_are_tested(self):
+        self.assertEqual(set(recipes("python")), {"", "Follow a camera", "Throw balls", "Drive wind from data", "Batch runs",
+                                                  "Record a data set"})
+
+    def test_asyncio(self):
+        (step, *shape), = self.run_recipe("")
+        self.assertGreaterEqual(step, 0)
+        self.assertEqual(shape[2], 3)
+
+    def test_batch_runs(self):
+        told = self.run_recipe("Batch runs")
+        self.assertEqual([speed for speed, *_ in told], [1, 4, 8])
+        lowest, _, highest = (y for _, _, y, _ in told)
+        self.assertGreater(highest, lowest + 0.2)  # m: the stronger the wind, the less a flag of 1.6 m hangs down
+
+    def test_record_a_data_set(self):
+        self.run_recipe("Record a data set")
+        with np.load(self.folder / "flag.npz") as data:
+            positions, time = data["positions"], data["time"]
+        self.assertEqual((positions.shape, positions.dtype), ((120, 33, 33, 3), np.float32))
+        np.testing.assert_allclose(np.diff(time), 1 / 60, atol=1e-9)  # every step once
+        self.assertTrue(np.isfinite(positions).all())
+
+
+class JavaScript(Recipes, unittest.TestCase):
+    language, package, suffix, command = "js", "js", "mjs", [os.environ.get("WEFT_NODE", "node")]
+    environment = dict(os.environ)
+
+    def setUp(self):
+        super().setUp()
+        modules = self.folder / "node_modules"
+        shutil.copytree(CLIENTS / "js", modules / "weft-client", ignore=shutil.ignore_patterns("node_modules"))
+        (modules / "ws").symlink_to(ROOT / "tests" / "node_modules" / "ws")
+
+    def test_all_are_tested(self):
+        self.assertEqual(set(recipes("js")), {"Follow a camera", "Throw balls", "Drive wind from data"})
+
+
+if __name__ == "__main__":
+    unittest.main()
