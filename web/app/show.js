@@ -1,13 +1,14 @@
 import {BallsView} from '../view/balls_view.js';
-import {ClothView, clothMaterials} from '../view/cloth_view.js';
+import {ClothView} from '../view/cloth_view.js';
 import {Loupe} from '../view/loupe.js';
 import {MarksView} from '../view/marks_view.js';
 import {ObstaclesView} from '../view/obstacles_view.js';
 import {Timeline} from '../view/timeline.js';
-import {weaveTextures} from '../view/weave.js';
+import {Wardrobe} from '../fabric/wardrobe.js';
 import {WindArrow} from '../view/wind_arrow.js';
 import {ZonesView} from '../view/zones_view.js';
 
+const kFinePixels = 1024, kPlainPixels = 512;  // side of a fabric's picture
 const kWindEffects = ['paper_wind', 'aerodynamics'];
 
 const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - centre[1], eye[2] - centre[2]);
@@ -30,8 +31,8 @@ export class Show {
     this.arrow = new WindArrow(document.getElementById('wind-arrow'));
     this.loupe = new Loupe(document.getElementById('loupe'), stage);
     stage.overlays.push(this.loupe, this.arrow);
-    this.materials = clothMaterials(weaveTextures(stage.anisotropy), options.high);
-    this.materials.fabric.polygonOffset = this.wireframe;
+    this.wardrobe = new Wardrobe({high: options.high, pixels: options.high ? kFinePixels : kPlainPixels, anisotropy: stage.anisotropy});
+    this.wardrobe.setOffset(this.wireframe);
     stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group, this.zones.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
@@ -63,7 +64,7 @@ export class Show {
     this.description = message;
     this.obstacles.show(message.obstacles ?? []);
     for (const description of message.cloths) {
-      const view = new ClothView(description, this.materials, this.instant);
+      const view = new ClothView(description, this.wardrobe, this.instant);
       view.wireframe = this.wireframe;
       this.stage.scene.add(view.group);
       this.cloths.set(view.id, view);
@@ -122,7 +123,7 @@ export class Show {
 
   setWireframe(on) {
     this.wireframe = on;
-    this.materials.fabric.polygonOffset = on;
+    this.wardrobe.setOffset(on);
     for (const view of this.cloths.values()) view.wireframe = on;
     this.stage.changed = true;
   }

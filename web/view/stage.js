@@ -1,4 +1,5 @@
 import {NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from '../three/three.module.js';
+import {studio} from './studio.js';
 import {Surroundings} from './surroundings.js';
 
 const kRoomyAspect = 1.25;  // of a window at least so wide the field of view is the one set
@@ -27,7 +28,7 @@ export class Stage {
     /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
     this.overlays = [];
     this.surroundings = new Surroundings(this.scene, this.camera,
-      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, changed: () => (this.changed = true)});
+      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, room: settings.high ? studio(this.renderer) : null, changed: () => (this.changed = true)});
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();
   }

@@ -4,9 +4,10 @@ import {
 } from '../three/three.module.js';
 
 const kThemes = {
-  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, shadow: 0.22},
-  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, shadow: 0.5},
+  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, room: 0.55, shadow: 0.22},
+  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, room: 0.4, shadow: 0.5},
 };
+const kBesideRoom = 0.35;  // share of the plain ambient light that is left beside a room's
 const kGroundMetres = 40;
 const kGroundGap = 0.02;  // m, to the lowest thing above it
 
@@ -15,11 +16,12 @@ export class Surroundings {
   /**
    * @param {import('../three/three.module.js').Scene} scene
    * @param {import('../three/three.module.js').Camera} camera part of the scene from here on: a light goes with it
-   * @param {{shadowPixels: number, anisotropy: number, changed: () => void}} options side of the shadow's picture, 0 for none; how many
-   *   samples slanted textures may cost; what is called when the colours have changed
+   * @param {{shadowPixels: number, anisotropy: number, room: Texture|null, changed: () => void}} options side of the shadow's picture,
+   *   0 for none; how many samples slanted textures may cost; what all around shines (studio.js); what is called when the colours have changed
    */
-  constructor(scene, camera, {shadowPixels, anisotropy, changed}) {
+  constructor(scene, camera, {shadowPixels, anisotropy, room, changed}) {
     this.scene = scene;
+    this.scene.environment = room;
     this.shadows = shadowPixels > 0;
     this.anisotropy = anisotropy;
     this.#addLights(camera, shadowPixels);
@@ -84,7 +86,9 @@ export class Surroundings {
       this.scene.background = new Color(theme.background);
       this.ambient.color.set(theme.sky);
       this.ambient.groundColor.set(theme.earth);
-      this.ambient.intensity = theme.ambient;
+      // The room's light comes from all around as well.
+      this.ambient.intensity = this.scene.environment ? theme.ambient * kBesideRoom : theme.ambient;
+      this.scene.environmentIntensity = theme.room;
       this.ground.material.opacity = theme.shadow;
       this.grid.material.map?.dispose();
       this.grid.material.map = tileTexture(theme.line, this.anisotropy);
