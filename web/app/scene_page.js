@@ -25,7 +25,9 @@ export class ScenePage {
     const instant = matchMedia('(prefers-reduced-motion: reduce)').matches;
     this.stage = new Stage(byId('stage'), settings);
     this.rig = new CameraRig(this.stage, instant);
-    this.show = new Show(this.stage, {instant, wireframe: settings.wireframe, high: settings.high});
+    this.show = new Show(this.stage, {
+      instant, wireframe: settings.wireframe, high: settings.high, arrow: byId('wind-arrow'), loupe: byId('loupe'),
+    });
     this.link = new Link();
     this.counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
     this.latest = {stats: null};

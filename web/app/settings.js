@@ -44,8 +44,8 @@ function fieldOfView(given) {
   return degrees >= 20 && degrees <= 100 ? degrees : kFieldOfView;
 }
 
-/** The service's address as ws: or wss:, without a trailing slash; the page's own folder when none is given. */
-function serverAddress(given, address) {
+/** The service's address as ws: or wss:, without a trailing slash; the folder of `address` when none is given. */
+export function serverAddress(given, address) {
   const url = new URL(given || '.', address);
   if (url.protocol === 'http:') url.protocol = 'ws:';
   if (url.protocol === 'https:') url.protocol = 'wss:';

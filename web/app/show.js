@@ -17,7 +17,8 @@ const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - cent
 export class Show {
   /**
    * @param {import('../view/stage.js').Stage} stage
-   * @param {{instant: boolean, wireframe: boolean, high: boolean}} options
+   * @param {{instant: boolean, wireframe: boolean, high: boolean, arrow?: HTMLElement, loupe?: HTMLElement}} options the last two are
+   *   where wind and magnifying glass are shown, if at all
    */
   constructor(stage, options) {
     this.stage = stage;
@@ -28,9 +29,9 @@ export class Show {
     this.obstacles = new ObstaclesView();
     this.marks = new MarksView();
     this.zones = new ZonesView();
-    this.arrow = new WindArrow(document.getElementById('wind-arrow'));
-    this.loupe = new Loupe(document.getElementById('loupe'), stage);
-    stage.overlays.push(this.loupe, this.arrow);
+    this.arrow = options.arrow ? new WindArrow(options.arrow) : null;
+    this.loupe = options.loupe ? new Loupe(options.loupe, stage) : null;
+    stage.overlays.push(...[this.loupe, this.arrow].filter(Boolean));
     this.wardrobe = new Wardrobe({high: options.high, pixels: options.high ? kFinePixels : kPlainPixels, anisotropy: stage.anisotropy});
     this.wardrobe.setOffset(this.wireframe);
     stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group, this.zones.group);
@@ -52,8 +53,8 @@ export class Show {
     this.obstacles.clear();
     this.marks.clear();
     this.zones.show([]);
-    this.arrow.set(this.wind.direction, 0);
-    this.loupe.lookAt(null);
+    this.arrow?.set(this.wind.direction, 0);
+    this.loupe?.lookAt(null);
     this.moving = false;
     this.stage.changed = true;
   }
@@ -90,7 +91,7 @@ export class Show {
     if (!wind) return;
     this.wind = wind;
     this.zones.show(wind.zones ?? []);
-    this.arrow.set(wind.direction, this.hasWind ? wind.speed : 0);
+    this.arrow?.set(wind.direction, this.hasWind ? wind.speed : 0);
     this.stage.changed = true;
   }
 
@@ -188,7 +189,7 @@ export class Show {
       extent = Math.max(extent, ...view.size);
     }
     const {centre} = views[0];
-    this.loupe.lookAt(centre, extent);
+    this.loupe?.lookAt(centre, extent);
     const {surroundings} = this.stage;
     if (!first) return surroundings.keepGroundBelow(low);
     const floor = this.obstacles.floorHeight();

@@ -44,8 +44,8 @@ export const kWeaves = {
   },
   satin: {
     threads: 128, period: 8,
-    front: {pattern: woven(satin, {uneven: 0.06}), relief: 0.06, surface: kSilk},
-    back: {pattern: woven(inverse(satin), {uneven: 0.08}), relief: 0.15, surface: {...kSilk, roughness: 0.6, anisotropy: 0.3}},
+    front: {pattern: woven(satin, {uneven: 0.03, gaps: 0.08}), relief: 0.06, surface: kSilk},
+    back: {pattern: woven(inverse(satin), {uneven: 0.05, gaps: 0.15}), relief: 0.15, surface: {...kSilk, roughness: 0.6, anisotropy: 0.3}},
   },
   canvas: {threads: 64, period: 4, front: {pattern: woven(basket, {uneven: 0.22, streak: 16}), relief: 0.4, surface: {...kCotton, roughness: 0.95}}},
   wool: {

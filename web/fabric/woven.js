@@ -13,10 +13,11 @@ function rise(x, over) {
 /**
  * Threads that cross each other: warp threads run down the cloth, weft threads across it.
  * @param {(i: number, j: number) => boolean} warpOnTop where the i-th warp thread crosses the j-th weft thread
- * @param {{uneven?: number, streak?: number, worn?: number}} [options] `uneven`: by how much threads differ in shade; `streak`: for how many
- *   threads one keeps its shade; `worn`: how far the tops of the warp have lost their dye to the weft's colour
+ * @param {{uneven?: number, streak?: number, worn?: number, gaps?: number}} [options] `uneven`: by how much threads differ in shade;
+ *   `streak`: for how many threads one keeps its shade; `worn`: how far the tops of the warp have lost their dye to the weft's colour;
+ *   `gaps`: how dark it is between threads
  */
-export const woven = (warpOnTop, {uneven = 0.12, streak = 8, worn = 0} = {}) => (u, v, threads, spot) => {
+export const woven = (warpOnTop, {uneven = 0.12, streak = 8, worn = 0, gaps = 0.34} = {}) => (u, v, threads, spot) => {
   const i = Math.floor(u), j = Math.floor(v);
   const warp = round(u) * (0.6 + 0.4 * rise(v, (row) => warpOnTop(i, row)));
   const weft = round(v) * (0.6 + 0.4 * rise(u, (column) => !warpOnTop(column, j)));
@@ -24,6 +25,6 @@ export const woven = (warpOnTop, {uneven = 0.12, streak = 8, worn = 0} = {}) => 
   spot.thread = spot.warp ? i : j;
   spot.height = Math.max(warp, weft);
   const slub = 0.5 * hash(spot.thread, 0, spot.warp ? 1 : 2) + 0.5 * noise(spot.thread, spot.warp ? v : u, threads, 1, streak, 3);
-  spot.shade = (0.66 + 0.34 * spot.height) * (1 + (spot.warp ? uneven : Math.min(uneven, 0.12)) * (slub - 0.5));
+  spot.shade = (1 - gaps + gaps * spot.height) * (1 + (spot.warp ? uneven : Math.min(uneven, 0.12)) * (slub - 0.5));
   spot.fade = spot.warp ? worn * spot.height ** 6 * (0.4 + 1.2 * slub) : 0;
 };

@@ -29,8 +29,17 @@ export class Stage {
     this.overlays = [];
     this.surroundings = new Surroundings(this.scene, this.camera,
       {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, room: settings.high ? studio(this.renderer) : null, changed: () => (this.changed = true)});
-    new ResizeObserver(() => this.#resize()).observe(canvas);
+    this.sizes = new ResizeObserver(() => this.#resize());
+    this.sizes.observe(canvas);
     this.#resize();
+  }
+
+  /** Gives the graphics card back what this holds of it; nothing can be drawn any more. */
+  dispose() {
+    this.sizes.disconnect();
+    this.surroundings.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Parts of the canvas that lie under panels, CSS pixels: what is looked at stands in the middle of the rest. */

@@ -4,10 +4,10 @@ import {
 } from '../three/three.module.js';
 
 const kThemes = {
-  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, room: 0.55, shadow: 0.22},
+  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, room: 0.42, shadow: 0.22},
   dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, room: 0.4, shadow: 0.5},
 };
-const kBesideRoom = 0.35;  // share of the plain ambient light that is left beside a room's
+const kBesideRoom = 0.25;  // share of the plain ambient light that is left beside a room's
 const kGroundMetres = 40;
 const kGroundGap = 0.02;  // m, to the lowest thing above it
 
@@ -51,6 +51,11 @@ export class Surroundings {
     this.grid.position.y = this.ground.position.y - 0.001;
   }
 
+  /** Follows what the viewer prefers no more. */
+  dispose() {
+    this.dark.removeEventListener('change', this.apply);
+  }
+
   #addLights(camera, shadowPixels) {
     this.ambient = new HemisphereLight();
     this.key = new DirectionalLight(0xfff3e0, 2.7);
@@ -63,7 +68,7 @@ export class Surroundings {
     const rim = new DirectionalLight(0xbcd0ff, 0.7);
     rim.position.set(-3, 1.5, -4);
     // And one that goes with the viewer: what is looked at is never black.
-    const head = new DirectionalLight(0xffffff, 0.7);
+    const head = new DirectionalLight(0xffffff, this.scene.environment ? 0.45 : 0.7);
     camera.add(head, head.target);
     head.target.position.set(0, 0, -1);
     head.position.set(0, 0, 0);
@@ -80,9 +85,9 @@ export class Surroundings {
   }
 
   #followTheme(changed) {
-    const query = matchMedia('(prefers-color-scheme: dark)');
-    const apply = () => {
-      const theme = kThemes[query.matches ? 'dark' : 'light'];
+    this.dark = matchMedia('(prefers-color-scheme: dark)');
+    this.apply = () => {
+      const theme = kThemes[this.dark.matches ? 'dark' : 'light'];
       this.scene.background = new Color(theme.background);
       this.ambient.color.set(theme.sky);
       this.ambient.groundColor.set(theme.earth);
@@ -95,8 +100,8 @@ export class Surroundings {
       this.grid.material.needsUpdate = true;
       changed();
     };
-    query.addEventListener('change', apply);
-    apply();
+    this.dark.addEventListener('change', this.apply);
+    this.apply();
   }
 }
 
