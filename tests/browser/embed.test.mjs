@@ -7,7 +7,7 @@ import {hide, openPage, startServer, viewersAre} from './harness.mjs';
 let service, foreign, site, page, witness;
 
 /** A page below a path of its own; `localhost` alone is let in by every server, what is below it is not. */
-const markup = (address, origin) => `<!doctype html><title>A shop</title>
+const markup = (address, origin) => `<!doctype html><title>A shop</title><link rel="icon" href="data:,">
   <style>weft-view { width: 200px; height: 150px; }</style>
   <script type="module" src="${address}/weft-view.js"></script>
   <h1>Our flags</h1>
