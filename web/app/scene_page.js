@@ -1,7 +1,7 @@
 import {CameraRig, ViewReporter} from '../input/camera_rig.js';
 import {Link} from '../connection/link.js';
 import {Stage} from '../view/stage.js';
-import {addressOfGallery, addressOfScene, readSettings} from './settings.js';
+import {addressOfGallery, addressOfScene, addressOfSplit, readSettings} from './settings.js';
 import {equip} from './wishes.js';
 import {handlersFor} from './messages.js';
 import {listenToKeys} from '../input/keyboard.js';
@@ -9,6 +9,7 @@ import {Notices} from './notices.js';
 import {publishHook} from './hook.js';
 import {addressOfView, readCamera, readWind, sameWind} from './view_link.js';
 import {Show} from './show.js';
+import {splitsOf, withoutHeld} from '../split/levels.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -100,6 +101,7 @@ export class ScenePage {
     }
     if (asked !== name) history[asked === null ? 'replaceState' : 'pushState'](null, '', addressOfScene(address, name));
     this.sceneShown = name;
+    this.#offerSplit();
     document.title = `${title || name} · Weft`;
   }
 
@@ -164,11 +166,13 @@ export class ScenePage {
       if (document.hidden) this.video.stop();  // nothing is drawn any more
     });
     new ResizeObserver(() => this.stage.setInsets(...panel.covers())).observe(byId('controls'));
-    byId('scenes').addEventListener('click', (event) => {
-      if (event.ctrlKey || event.metaKey || event.shiftKey) return;  // to another tab or window
-      event.preventDefault();
-      this.router.goTo(event.currentTarget.href);
-    });
+    for (const id of ['scenes', 'split']) {
+      byId(id).addEventListener('click', (event) => {
+        if (event.ctrlKey || event.metaKey || event.shiftKey) return;  // to another tab or window
+        event.preventDefault();
+        this.router.goTo(event.currentTarget.href);
+      });
+    }
     listenToKeys(this.rig, {
       'h': () => actions.setHandTool(!this.clothHand.tool),
       'w': () => actions.setWireframe(!this.show.wireframe),
@@ -214,7 +218,13 @@ export class ScenePage {
   #setScenes(scenes, current) {
     this.scenes = scenes;
     this.panel.setScenes(scenes, current);
-    byId('scenes').hidden = scenes.length < 2;
+    byId('scenes').hidden = withoutHeld(scenes).length < 2;
+    this.#offerSplit();
+  }
+
+  #offerSplit() {
+    byId('split').hidden = !splitsOf(this.scenes).has(this.sceneShown);
+    if (this.sceneShown) byId('split').href = addressOfSplit(new URL(location.href), this.sceneShown);
   }
 
   #draw(nowMs) {

@@ -14,7 +14,8 @@ export class Player {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {{high: boolean, pixelRatio: number, fieldOfView: number, instant: boolean, wireframe?: boolean}} settings
-   * @param {{state?: (state: string) => void, scene?: (message: object) => void, stats?: (message: object) => void}} [on] `state`:
+   * @param {{state?: (state: string) => void, scene?: (message: object) => void, frame?: (frame: object) => void,
+   *   stats?: (message: object) => void}} [on] `state`:
    *   `connecting`, `open`, `waiting` (tries again by itself), `closed`
    */
   constructor(canvas, settings, on = {}) {
@@ -39,6 +40,7 @@ export class Player {
       onframe: (frame) => {
         if (client !== this.#client) return;
         this.frames += 1;
+        this.on.frame?.(frame);
         this.show.push(frame, performance.timeOrigin + performance.now());
       },
       onstate: (state) => {
