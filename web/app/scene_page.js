@@ -5,6 +5,7 @@ import {addressOfGallery, addressOfScene, addressOfSplit, readSettings} from './
 import {equip} from './wishes.js';
 import {handlersFor} from './messages.js';
 import {listenToKeys} from '../input/keyboard.js';
+import {Ages, limitOf} from './pace.js';
 import {Notices} from './notices.js';
 import {publishHook} from './hook.js';
 import {addressOfView, readCamera, readWind, sameWind} from './view_link.js';
@@ -30,8 +31,9 @@ export class ScenePage {
       instant, wireframe: settings.wireframe, high: settings.high, arrow: byId('wind-arrow'), loupe: byId('loupe'),
     });
     this.link = new Link();
-    this.counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
-    this.latest = {stats: null};
+    this.counts = {frames: 0, bytes: 0, drawn: 0, looks: 0, total: 0, sinceMs: performance.now()};
+    this.ages = new Ages();
+    this.latest = {stats: null, frame: null};
     this.notices = new Notices(hud);
     this.scenes = [];
     this.effectsOff = [];
@@ -156,6 +158,7 @@ export class ScenePage {
       this.counts.frames += 1;
       this.counts.total += 1;
       this.counts.bytes += detail.bytes;
+      this.latest.frame = detail;
       this.show.push(detail.frame, detail.arrivedMs);
     });
     this.hud.onRetry(() => this.here && link.retry());
@@ -234,6 +237,7 @@ export class ScenePage {
     }
     requestAnimationFrame((next) => this.#draw(next));
     const {show, rig, hud, stage, counts} = this;
+    counts.looks += 1;
     show.update(nowMs, performance.timeOrigin + nowMs);
     rig.update(nowMs);
     const levels = show.levels(rig.eye);
@@ -250,7 +254,15 @@ export class ScenePage {
     this.keep.showRecording(this.video.recording ? this.video.seconds : null);
     if (!stage.changed && !this.video.recording) return;  // a video has pictures of what stands still, too
     counts.drawn += 1;
+    this.#noteAge();
     stage.draw();
+  }
+
+  /** How old what is drawn now is: what passed on the way, and since. */
+  #noteAge() {
+    const {frame} = this.latest;
+    if (!frame || this.show.behindMs === null) return;
+    this.ages.add(frame.ageMs + performance.timeOrigin + performance.now() - frame.arrivedMs + this.show.behindMs, frame.ageMs);
   }
 
   #showBalls() {
@@ -276,7 +288,11 @@ export class ScenePage {
   #showRates(nowMs) {
     const seconds = (nowMs - this.counts.sinceMs) / 1000;
     if (seconds < 1) return;
+    const {frames, looks} = this.counts;
     this.hud.showRates({...this.counts, seconds});
-    Object.assign(this.counts, {frames: 0, bytes: 0, drawn: 0, sinceMs: nowMs});
+    const {rate = 0} = this.latest.stats ?? {};
+    const dt = this.show.description?.dt ?? 1;
+    this.hud.showPace(this.ages.take(), limitOf({rate, dt, received: frames / seconds, looks: looks / seconds}));
+    Object.assign(this.counts, {frames: 0, bytes: 0, drawn: 0, looks: 0, sinceMs: nowMs});
   }
 }

@@ -40,6 +40,8 @@ export class Show {
     this.description = null;
     this.wind = {direction: [0, 0, -1], speed: 0};
     this.framesShown = 0;
+    /** How much older than the newest frame what is shown is, ms; null when it stands still. @type {number|null} */
+    this.behindMs = null;
     this.moving = false;
   }
 
@@ -156,6 +158,7 @@ export class Show {
     this.obstacles.move(before.obstacles, after.obstacles, share);
     this.marks.update(this.cloths);
     this.stamp = after.stamp;
+    this.behindMs = moment.settled ? null : moment.behindMs;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;
     this.stage.changed = true;
