@@ -1,5 +1,7 @@
 #include "cli/serve_options.h"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 #include <variant>
 
@@ -37,6 +39,27 @@ void add_limits(CLI::App& command, protocol::Limits& limits, host::MakingLimits&
       "Bytes that a cloth's record may have; the finest levels that have more are not sent");
 }
 
+/// The scene `name` held to one level: NAME-level-L. It has so many cloths.
+scene::Result load_at(int level, const ServeOptions& options, const std::string& name, std::size_t cloths) {
+  constexpr std::size_t kNameLength = 64;
+  std::vector<std::string> overrides = options.overrides;
+  const std::string number = std::to_string(level);
+  for (std::size_t cloth = 0; cloth < cloths; ++cloth) {
+    std::string& levels = overrides.emplace_back("/cloths/");
+    levels.append(std::to_string(cloth)).append("/levels={\"min\":").append(number);
+    levels.append(",\"max\":").append(number).append("}");
+  }
+  scene::Result result = scene::load(name, overrides);
+  if (auto* scene = std::get_if<scene::Scene>(&result)) {
+    scene->name.append("-level-").append(number);
+    scene->title.append(", level ").append(number);
+    if (scene->name.size() > kNameLength)
+      return std::vector<scene::Problem>{
+          {"", scene->name + ": the name has more than 64 characters (--split)"}};
+  }
+  return result;
+}
+
 }  // namespace
 
 bool load_scenes(const ServeOptions& options, host::Host& host) {
@@ -46,8 +69,18 @@ bool load_scenes(const ServeOptions& options, host::Host& host) {
     if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&result)) {
       print_problems(name, *problems);
       good = false;
-    } else {
-      host.add(std::move(std::get<scene::Scene>(result)));
+      continue;
+    }
+    auto& whole = std::get<scene::Scene>(result);
+    const std::size_t cloths = whole.simulation.cloths.size();
+    host.add(std::move(whole));
+    for (const int level : options.split) {
+      scene::Result held = load_at(level, options, name, cloths);
+      if (const auto* problems = std::get_if<std::vector<scene::Problem>>(&held)) {
+        spdlog::warn("{} cannot be held to level {} (--split): {}", name, level, problems->front().text());
+      } else {
+        host.add(std::move(std::get<scene::Scene>(held)));
+      }
     }
   }
   return good;
@@ -58,6 +91,14 @@ void ServeOptions::add_to(CLI::App& command) {
                      "Presets or scene files; the first is shown first (default: all presets)");
   ServingOptions::add_to(command);
   command.add_option("--set", overrides, "POINTER=VALUE changes a value of every scene, as /wind/speed=8")
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--split", split,
+          "Serves each scene once more for each of these levels, held to it, as NAME-level-6; the page "
+          "shows them side by side (6,5,4)")
+      ->delimiter(',')
+      ->check(CLI::Range(kMinLevel, kMaxLevel))
       ->allow_extra_args(false);
   add_limits(command, limits, making);
   command.add_option(

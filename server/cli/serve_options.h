@@ -14,6 +14,7 @@ namespace weft::cli {
 struct ServeOptions : ServingOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
+  std::vector<int> split;  ///< levels at which each scene is served once more
   host::MakingLimits making;
   host::LogFolders folders;
   Threads threads;

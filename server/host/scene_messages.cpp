@@ -20,7 +20,21 @@ json relevance_json(const Relevance& relevance) {
   return message;
 }
 
-json cloths_json(const Simulation<float>& simulation, const SceneState& state) {
+json look_json(const scene::Look& look) {
+  json message{{"weave", look.weave}, {"colour", look.colour}, {"weft", look.weft}, {"thread", look.thread}};
+  if (!look.back.empty()) message["back"] = look.back;
+  if (look.stripe) {
+    message["stripe"] = {{"colour", look.stripe->colour},
+                         {"width", look.stripe->width},
+                         {"spacing", look.stripe->spacing},
+                         {"bands", look.stripe->bands},
+                         {"across", look.stripe->across}};
+  }
+  return message;
+}
+
+json cloths_json(const Simulation<float>& simulation, const std::vector<scene::Look>& looks,
+                 const SceneState& state) {
   json cloths = json::array();
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
     const ClothDescription& cloth = simulation.cloths()[i].description();
@@ -34,6 +48,7 @@ json cloths_json(const Simulation<float>& simulation, const SceneState& state) {
                       {"pins", pins_json(cloth)}});
     if (cloth.relevance.unseen != Relevance::Unseen::step)
       cloths.back()["relevance"] = relevance_json(cloth.relevance);
+    if (i < looks.size()) cloths.back()["look"] = look_json(looks[i]);
   }
   return cloths;
 }
@@ -185,7 +200,7 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
       {"material_tunable", material_tunable_json(state.effects)},
       {"wind", wind_json(simulation.wind())},
       {"balls", balls_json(simulation.colliders())},
-      {"cloths", cloths_json(simulation, state)},
+      {"cloths", cloths_json(simulation, scene.looks, state)},
       {"level_policy",
        {{"thresholds", policy.thresholds}, {"levels", policy.levels}, {"hysteresis", policy.hysteresis}}},
       {"camera",

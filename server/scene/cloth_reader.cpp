@@ -201,7 +201,7 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-ClothDescription read_cloth(const json& value, const std::string& path, Report& report) {
+ClothDescription read_cloth(const json& value, const std::string& path, Report& report, Look& look) {
   constexpr Range kBaseCells{1, 32};
   constexpr Range kPerturbation{0, 100, "m"};
   ClothDescription cloth;
@@ -237,9 +237,9 @@ ClothDescription read_cloth(const json& value, const std::string& path, Report& 
   }
   object.vector("velocity", cloth.velocity, kVelocity);
   object.number("perturbation", cloth.perturbation, kPerturbation);
-  if (const json* material = object.find("material")) {
-    cloth.material = read_material(*material, object.path("material"), report);
-  }
+  const json* material = object.find("material");
+  if (material) cloth.material = read_material(*material, object.path("material"), report);
+  look = read_look(object.find("look"), object.path("look"), report, material);
   if (object.choice("discretization", {"paper", "continuum"}) == 0)
     cloth.discretization = Discretization::paper;
   object.each("pins", 0, kMaxPins, [&](const json& pin, const std::string& at) {

@@ -41,11 +41,11 @@ void read_camera(const json& value, const std::string& path, Report& report, Sce
   }
 }
 
-std::vector<ClothDescription> read_cloths(Object& scene) {
+std::vector<ClothDescription> read_cloths(Object& scene, std::vector<Look>& looks) {
   std::vector<ClothDescription> cloths;
   scene.require("cloths", "an array of cloths");
   scene.each("cloths", 1, kMaxCloths, [&](const json& value, const std::string& path) {
-    ClothDescription cloth = read_cloth(value, path, scene.report());
+    ClothDescription cloth = read_cloth(value, path, scene.report(), looks.emplace_back());
     const auto same =
         std::find_if(cloths.begin(), cloths.end(), [&](const auto& o) { return o.name == cloth.name; });
     if (same != cloths.end()) {
@@ -136,7 +136,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
     SimulationDescription& simulation = scene.simulation;
     object.string("title", scene.title, kTitleLength);
     scene.notes = read_notes(object);
-    simulation.cloths = read_cloths(object);
+    simulation.cloths = read_cloths(object, scene.looks);
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
       read_collider(value, path, report, folder, simulation);
     });

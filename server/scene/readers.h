@@ -25,7 +25,12 @@ inline constexpr Range kVelocity{-1e3, 1e3, "m/s"};
 inline constexpr Range kLevel{kMinLevel, kMaxLevel};
 inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
 
-ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report);
+/// A cloth, and what it looks like.
+ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report, Look& look);
+/// `value` is nullptr where the scene does not say; then, and for what it leaves out, the look is that of the
+/// fabric that `material` names, if there is one and it does.
+Look read_look(const nlohmann::json* value, const std::string& path, Report& report,
+               const nlohmann::json* material);
 /// Where a scene's other files are, if it is a file itself.
 using SceneFolder = std::optional<std::filesystem::path>;
 /// Adds a ball or an obstacle to the simulation.

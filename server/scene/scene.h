@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloth/world/description.h"
+#include "scene/look.h"
 
 namespace weft::scene {
 
@@ -34,6 +35,7 @@ struct Scene {
   Vec3 camera_eye{0.0, 0.0, 5.0};  ///< where a page puts its camera at first, m
   Vec3 camera_target{0.0, 0.0, 0.0};
   SimulationDescription simulation;
+  std::vector<Look> looks;  ///< of each cloth
   std::string document;  ///< the scene as JSON text, with overrides: what it was read from
   std::string folder;    ///< that files named in it are beside; empty: it may name none
   Quality quality;       ///< asks for nothing: stepped as the simulation says

@@ -9,7 +9,7 @@ const kAxe = readFileSync(fileURLToPath(import.meta.resolve('axe-core/axe.min.js
 const kGrave = ['serious', 'critical'];
 
 let server;
-before(async () => (server = await startServer(['flag', 'zheng2020-ball', 'fan', 'round-table'])));
+before(async () => (server = await startServer(['flag', 'zheng2020-ball', 'fan', 'round-table'], {options: ['--split', '5,4']})));
 
 /** What axe-core finds on a page as it is now, in words. */
 async function findings(page, where = {}, options = {}) {
@@ -37,6 +37,13 @@ for (const colorScheme of ['light', 'dark']) {
     const {page} = await openPage(`${server.address}/?quality=low`, {colorScheme});
     await page.waitForSelector('.card[data-frames]');
     await isSound(page, 'gallery');
+    await page.close();
+  });
+
+  test(`a scene at several levels, ${colorScheme}`, async () => {
+    const {page} = await openPage(`${server.address}/?quality=low&split=fan`, {colorScheme});
+    await page.waitForFunction(() => document.querySelectorAll('#split-panes dd')[1]?.textContent.endsWith(' ms'));
+    await isSound(page, 'split');
     await page.close();
   });
 

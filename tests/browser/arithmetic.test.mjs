@@ -7,6 +7,7 @@ import {centreOf, gridNormals, materialCoordinates, mix, sideIndices, split, spl
 import {Morph} from '../../web/view/morph.js';
 import {addressOfScene, readSettings} from '../../web/app/settings.js';
 import {ThrowSpeed} from '../../web/input/throw_speed.js';
+import {Ages, limitOf} from '../../web/app/pace.js';
 import {Timeline} from '../../web/view/timeline.js';
 import {Tuner, kTuneMs, sliderSpan, unitText} from '../../web/panels/tuning.js';
 import {anglesOf, directionOf} from '../../web/panels/wind_angles.js';
@@ -163,8 +164,30 @@ test('the timeline shows a frame interval late, between the two frames around th
   const moment = timeline.sample(1_205 + timeline.delayMs - 10);  // 10 ms before the last frame is due
   assert.equal(moment.before.stamp.serverMs, 5_180);
   assert.equal(moment.after.stamp.serverMs, 5_200);
+  near(moment.behindMs, 10, 0.4);  // the newest is at 200 ms, this at 190
   near(moment.share, 0.5, 0.02);  // the drift allowance moves it by 0.02 ms a frame
   assert.ok(timeline.delayMs > 15 && timeline.delayMs < 25);
+});
+
+test('what limits the pictures: server, page, link, in this order', () => {
+  const well = {rate: 1, dt: 1 / 60, received: 60, looks: 60};
+  assert.equal(limitOf(well), 'nothing');
+  assert.equal(limitOf({...well, rate: 0.5, received: 30}), 'server');
+  assert.equal(limitOf({...well, looks: 20, received: 20}), 'page');  // it takes no more, so no more are sent
+  assert.equal(limitOf({...well, received: 20}), 'link');
+  assert.equal(limitOf({...well, dt: 1 / 30, received: 30}), 'nothing');  // there are no more
+  assert.equal(limitOf({...well, dt: 1 / 240, received: 60}), 'nothing');  // no more are sent
+  assert.equal(limitOf({...well, rate: 0, received: 0}), null);
+});
+
+test('ages are the means since they were last told', () => {
+  const ages = new Ages();
+  assert.equal(ages.take(), null);
+  ages.add(NaN, NaN);
+  ages.add(30, 10);
+  ages.add(50, 20);
+  assert.deepEqual(ages.take(), {age: 40, onWay: 15});
+  assert.equal(ages.take(), null);
 });
 
 test('the timeline never goes beyond the newest frame', () => {

@@ -19,11 +19,11 @@ after(async () => {
 });
 
 /**
- * `weft serve SCENES`, once it listens.
+ * `weft serve SCENES OPTIONS`, once it listens.
  * @returns {Promise<{address: string, port: number, stop: () => Promise<void>}>}
  */
-export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAGE} = {}) {
-  const child = spawn(process.env.WEFT_BINARY, ['serve', ...scenes, '--port', String(port), '--web', page, '--quiet'],
+export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAGE, options = []} = {}) {
+  const child = spawn(process.env.WEFT_BINARY, ['serve', ...scenes, '--port', String(port), '--web', page, '--quiet', ...options],
     {stdio: ['ignore', 'pipe', 'inherit']});
   children.add(child);
   const exited = once(child, 'exit').then(([code]) => {

@@ -108,6 +108,16 @@ test('wind by the sliders', async () => {
   assert.equal(await page.isVisible('#wind-arrow'), false);
 });
 
+test('the picture’s age and what limits it are told', async () => {
+  const told = await page.waitForFunction(() => document.getElementById('number-age').textContent.match(/^(\d+) ms, (\d+) on the way$/));
+  const [, age, onWay] = (await told.jsonValue()).map(Number);
+  assert.ok(onWay <= age, `${onWay} of ${age} ms on the way`);  // the rest is the page's own
+  await pause(page);
+  await page.waitForFunction(() => document.getElementById('number-limit').textContent === 'it stands still');
+  await resume();
+  await page.waitForFunction(() => document.getElementById('number-limit').textContent !== 'it stands still');
+});
+
 test('W toggles the wireframe', async () => {
   await pause(page);
   const area = await areaAround(page, (await stats(page)).cloths[0].centre, kInside);

@@ -3,6 +3,11 @@ const kToastMs = 6000;
 /** In place of the substeps, of which there are none. */
 const kStandsStill = {asleep: 'none: asleep', frozen: 'none: frozen', unseen: 'none: unseen'};
 
+/** What limits the pictures, for people. */
+const kLimits = {
+  server: 'the server: behind real time', link: 'the link: frames are left out', page: 'this page: drawing is slow', nothing: 'nothing',
+};
+
 /** Sets text only when it differs: screen readers and layout are spared. */
 function write(id, text) {
   const element = byId(id);
@@ -60,6 +65,12 @@ export class Hud {
     write('number-received', `${(frames / seconds).toFixed(0)} per second`);
     write('number-data', `${((bytes * 8) / 1000 / seconds).toFixed(0)} kbit/s`);
     write('number-drawn', `${(drawn / seconds).toFixed(0)} per second`);
+  }
+
+  /** @param {{age: number, onWay: number}|null} ages ms @param {string|null} limit see limitOf */
+  showPace(ages, limit) {
+    write('number-age', ages ? `${ages.age.toFixed(0)} ms, ${ages.onWay.toFixed(0)} on the way` : '–');
+    write('number-limit', limit === null ? 'it stands still' : kLimits[limit]);
   }
 
   showRoundTrip(ms) {

@@ -1,12 +1,13 @@
-/** Shows what the address asks for, the gallery or a scene, and goes from one to the other without loading the page again. */
+/** Shows what the address asks for, the gallery, a scene or one at several levels, and goes from one to the other without loading the page again. */
 import {Gallery} from '../gallery/gallery.js';
 import {addressOfScene, readSettings} from './settings.js';
 import {Hud} from './hud.js';
 import {publishEmptyHook} from './hook.js';
 import {ScenePage} from './scene_page.js';
+import {SplitPage} from '../split/split_page.js';
 
 const hud = new Hud();
-const screens = {gallery: document.getElementById('gallery'), scene: document.getElementById('scene-page')};
+const screens = {gallery: document.getElementById('gallery'), scene: document.getElementById('scene-page'), split: document.getElementById('split-page')};
 
 try {
   start(readSettings(new URL(location.href), devicePixelRatio));
@@ -29,6 +30,7 @@ function start(settings) {
       },
     }),
     scene: () => new ScenePage(settings, access, hud, {goTo}),
+    split: () => new SplitPage(screens.split, settings, access, hud, {goTo}),
   };
   const made = {};
 
@@ -45,9 +47,10 @@ function start(settings) {
 
   /** Shows what the address says now. */
   function follow() {
-    const {scene} = readSettings(new URL(location.href), devicePixelRatio);
+    const {scene, split} = readSettings(new URL(location.href), devicePixelRatio);
     try {
-      if (scene === null) show('gallery').enter();
+      if (split !== null) show('split').enter(split);
+      else if (scene === null) show('gallery').enter();
       else show('scene').enter(scene);
     } catch (error) {
       shown = null;  // it was never made

@@ -1,14 +1,16 @@
 import {CameraRig, ViewReporter} from '../input/camera_rig.js';
 import {Link} from '../connection/link.js';
 import {Stage} from '../view/stage.js';
-import {addressOfGallery, addressOfScene, readSettings} from './settings.js';
+import {addressOfGallery, addressOfScene, addressOfSplit, readSettings} from './settings.js';
 import {equip} from './wishes.js';
 import {handlersFor} from './messages.js';
 import {listenToKeys} from '../input/keyboard.js';
+import {Ages, limitOf} from './pace.js';
 import {Notices} from './notices.js';
 import {publishHook} from './hook.js';
 import {addressOfView, readCamera, readWind, sameWind} from './view_link.js';
 import {Show} from './show.js';
+import {splitsOf, withoutHeld} from '../split/levels.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -25,10 +27,13 @@ export class ScenePage {
     const instant = matchMedia('(prefers-reduced-motion: reduce)').matches;
     this.stage = new Stage(byId('stage'), settings);
     this.rig = new CameraRig(this.stage, instant);
-    this.show = new Show(this.stage, {instant, wireframe: settings.wireframe, high: settings.high});
+    this.show = new Show(this.stage, {
+      instant, wireframe: settings.wireframe, high: settings.high, arrow: byId('wind-arrow'), loupe: byId('loupe'),
+    });
     this.link = new Link();
-    this.counts = {frames: 0, bytes: 0, drawn: 0, total: 0, sinceMs: performance.now()};
-    this.latest = {stats: null};
+    this.counts = {frames: 0, bytes: 0, drawn: 0, looks: 0, total: 0, sinceMs: performance.now()};
+    this.ages = new Ages();
+    this.latest = {stats: null, frame: null};
     this.notices = new Notices(hud);
     this.scenes = [];
     this.effectsOff = [];
@@ -98,6 +103,7 @@ export class ScenePage {
     }
     if (asked !== name) history[asked === null ? 'replaceState' : 'pushState'](null, '', addressOfScene(address, name));
     this.sceneShown = name;
+    this.#offerSplit();
     document.title = `${title || name} · Weft`;
   }
 
@@ -152,6 +158,7 @@ export class ScenePage {
       this.counts.frames += 1;
       this.counts.total += 1;
       this.counts.bytes += detail.bytes;
+      this.latest.frame = detail;
       this.show.push(detail.frame, detail.arrivedMs);
     });
     this.hud.onRetry(() => this.here && link.retry());
@@ -162,11 +169,13 @@ export class ScenePage {
       if (document.hidden) this.video.stop();  // nothing is drawn any more
     });
     new ResizeObserver(() => this.stage.setInsets(...panel.covers())).observe(byId('controls'));
-    byId('scenes').addEventListener('click', (event) => {
-      if (event.ctrlKey || event.metaKey || event.shiftKey) return;  // to another tab or window
-      event.preventDefault();
-      this.router.goTo(event.currentTarget.href);
-    });
+    for (const id of ['scenes', 'split']) {
+      byId(id).addEventListener('click', (event) => {
+        if (event.ctrlKey || event.metaKey || event.shiftKey) return;  // to another tab or window
+        event.preventDefault();
+        this.router.goTo(event.currentTarget.href);
+      });
+    }
     listenToKeys(this.rig, {
       'h': () => actions.setHandTool(!this.clothHand.tool),
       'w': () => actions.setWireframe(!this.show.wireframe),
@@ -212,7 +221,13 @@ export class ScenePage {
   #setScenes(scenes, current) {
     this.scenes = scenes;
     this.panel.setScenes(scenes, current);
-    byId('scenes').hidden = scenes.length < 2;
+    byId('scenes').hidden = withoutHeld(scenes).length < 2;
+    this.#offerSplit();
+  }
+
+  #offerSplit() {
+    byId('split').hidden = !splitsOf(this.scenes).has(this.sceneShown);
+    if (this.sceneShown) byId('split').href = addressOfSplit(new URL(location.href), this.sceneShown);
   }
 
   #draw(nowMs) {
@@ -222,6 +237,7 @@ export class ScenePage {
     }
     requestAnimationFrame((next) => this.#draw(next));
     const {show, rig, hud, stage, counts} = this;
+    counts.looks += 1;
     show.update(nowMs, performance.timeOrigin + nowMs);
     rig.update(nowMs);
     const levels = show.levels(rig.eye);
@@ -238,7 +254,15 @@ export class ScenePage {
     this.keep.showRecording(this.video.recording ? this.video.seconds : null);
     if (!stage.changed && !this.video.recording) return;  // a video has pictures of what stands still, too
     counts.drawn += 1;
+    this.#noteAge();
     stage.draw();
+  }
+
+  /** How old what is drawn now is: what passed on the way, and since. */
+  #noteAge() {
+    const {frame} = this.latest;
+    if (!frame || this.show.behindMs === null) return;
+    this.ages.add(frame.ageMs + performance.timeOrigin + performance.now() - frame.arrivedMs + this.show.behindMs, frame.ageMs);
   }
 
   #showBalls() {
@@ -264,7 +288,11 @@ export class ScenePage {
   #showRates(nowMs) {
     const seconds = (nowMs - this.counts.sinceMs) / 1000;
     if (seconds < 1) return;
+    const {frames, looks} = this.counts;
     this.hud.showRates({...this.counts, seconds});
-    Object.assign(this.counts, {frames: 0, bytes: 0, drawn: 0, sinceMs: nowMs});
+    const {rate = 0} = this.latest.stats ?? {};
+    const dt = this.show.description?.dt ?? 1;
+    this.hud.showPace(this.ages.take(), limitOf({rate, dt, received: frames / seconds, looks: looks / seconds}));
+    Object.assign(this.counts, {frames: 0, bytes: 0, drawn: 0, looks: 0, sinceMs: nowMs});
   }
 }

@@ -8,6 +8,7 @@ const kFieldOfView = 42;  // degrees
  * @typedef {object} Settings
  * @property {string} server address of the service, "ws://host:port" or "ws://host/path", without a slash at its end
  * @property {string|null} scene name of the scene; null: the gallery, or the only one there is
+ * @property {string|null} split name of a scene that is shown at several levels side by side
  * @property {string|null} token shown to the service; null: none
  * @property {boolean} high quality: antialiasing, shadows, bumps, filtered textures
  * @property {number} pixelRatio device pixels a CSS pixel
@@ -16,7 +17,7 @@ const kFieldOfView = 42;  // degrees
  */
 
 /**
- * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?wireframe=1`, `?fov=75` (degrees, 20 to 100) for a wider
+ * Reads the page's address: `?server=ws://host:port`, `?scene=NAME`, `?split=NAME`, `?wireframe=1`, `?fov=75` (degrees, 20 to 100) for a wider
  * or longer lens, `?quality=low` for machines that draw without a graphics card, and the view (view_link.js). `#token=T` is the token for a service that asks
  * for one: what stands behind `#` stays in the browser.
  * @param {URL} address the page's own
@@ -29,6 +30,7 @@ export function readSettings(address, devicePixelRatio) {
   return {
     server: serverAddress(parameters.get('server'), address),
     scene: parameters.get('scene') || null,
+    split: parameters.get('split') || null,
     token: new URLSearchParams(address.hash.slice(1)).get('token') || null,
     high,
     // Beyond 2 nobody sees the difference, but four times the pixels are drawn.
@@ -44,8 +46,8 @@ function fieldOfView(given) {
   return degrees >= 20 && degrees <= 100 ? degrees : kFieldOfView;
 }
 
-/** The service's address as ws: or wss:, without a trailing slash; the page's own folder when none is given. */
-function serverAddress(given, address) {
+/** The service's address as ws: or wss:, without a trailing slash; the folder of `address` when none is given. */
+export function serverAddress(given, address) {
   const url = new URL(given || '.', address);
   if (url.protocol === 'http:') url.protocol = 'ws:';
   if (url.protocol === 'https:') url.protocol = 'wss:';
@@ -58,7 +60,16 @@ function serverAddress(given, address) {
 /** The address under which this page shows `scene`: what a reload gives. */
 export function addressOfScene(address, scene) {
   const next = withoutView(address);
+  next.searchParams.delete('split');
   next.searchParams.set('scene', scene);
+  return next;
+}
+
+/** The address under which this page shows `scene` at several levels. */
+export function addressOfSplit(address, scene) {
+  const next = withoutView(address);
+  next.searchParams.delete('scene');
+  next.searchParams.set('split', scene);
   return next;
 }
 
@@ -66,5 +77,6 @@ export function addressOfScene(address, scene) {
 export function addressOfGallery(address) {
   const next = withoutView(address);
   next.searchParams.delete('scene');
+  next.searchParams.delete('split');
   return next;
 }

@@ -1,13 +1,14 @@
 import {BallsView} from '../view/balls_view.js';
-import {ClothView, clothMaterials} from '../view/cloth_view.js';
+import {ClothView} from '../view/cloth_view.js';
 import {Loupe} from '../view/loupe.js';
 import {MarksView} from '../view/marks_view.js';
 import {ObstaclesView} from '../view/obstacles_view.js';
 import {Timeline} from '../view/timeline.js';
-import {weaveTextures} from '../view/weave.js';
+import {Wardrobe} from '../fabric/wardrobe.js';
 import {WindArrow} from '../view/wind_arrow.js';
 import {ZonesView} from '../view/zones_view.js';
 
+const kFinePixels = 1024, kPlainPixels = 512;  // side of a fabric's picture
 const kWindEffects = ['paper_wind', 'aerodynamics'];
 
 const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - centre[1], eye[2] - centre[2]);
@@ -16,7 +17,8 @@ const distanceTo = (eye, centre) => Math.hypot(eye[0] - centre[0], eye[1] - cent
 export class Show {
   /**
    * @param {import('../view/stage.js').Stage} stage
-   * @param {{instant: boolean, wireframe: boolean, high: boolean}} options
+   * @param {{instant: boolean, wireframe: boolean, high: boolean, arrow?: HTMLElement, loupe?: HTMLElement}} options the last two are
+   *   where wind and magnifying glass are shown, if at all
    */
   constructor(stage, options) {
     this.stage = stage;
@@ -27,17 +29,19 @@ export class Show {
     this.obstacles = new ObstaclesView();
     this.marks = new MarksView();
     this.zones = new ZonesView();
-    this.arrow = new WindArrow(document.getElementById('wind-arrow'));
-    this.loupe = new Loupe(document.getElementById('loupe'), stage);
-    stage.overlays.push(this.loupe, this.arrow);
-    this.materials = clothMaterials(weaveTextures(stage.anisotropy), options.high);
-    this.materials.fabric.polygonOffset = this.wireframe;
+    this.arrow = options.arrow ? new WindArrow(options.arrow) : null;
+    this.loupe = options.loupe ? new Loupe(options.loupe, stage) : null;
+    stage.overlays.push(...[this.loupe, this.arrow].filter(Boolean));
+    this.wardrobe = new Wardrobe({high: options.high, pixels: options.high ? kFinePixels : kPlainPixels, anisotropy: stage.anisotropy});
+    this.wardrobe.setOffset(this.wireframe);
     stage.scene.add(this.balls.group, this.obstacles.group, this.marks.group, this.zones.group);
     /** @type {Map<number, ClothView>} */
     this.cloths = new Map();
     this.description = null;
     this.wind = {direction: [0, 0, -1], speed: 0};
     this.framesShown = 0;
+    /** How much older than the newest frame what is shown is, ms; null when it stands still. @type {number|null} */
+    this.behindMs = null;
     this.moving = false;
   }
 
@@ -51,8 +55,8 @@ export class Show {
     this.obstacles.clear();
     this.marks.clear();
     this.zones.show([]);
-    this.arrow.set(this.wind.direction, 0);
-    this.loupe.lookAt(null);
+    this.arrow?.set(this.wind.direction, 0);
+    this.loupe?.lookAt(null);
     this.moving = false;
     this.stage.changed = true;
   }
@@ -63,7 +67,7 @@ export class Show {
     this.description = message;
     this.obstacles.show(message.obstacles ?? []);
     for (const description of message.cloths) {
-      const view = new ClothView(description, this.materials, this.instant);
+      const view = new ClothView(description, this.wardrobe, this.instant);
       view.wireframe = this.wireframe;
       this.stage.scene.add(view.group);
       this.cloths.set(view.id, view);
@@ -89,7 +93,7 @@ export class Show {
     if (!wind) return;
     this.wind = wind;
     this.zones.show(wind.zones ?? []);
-    this.arrow.set(wind.direction, this.hasWind ? wind.speed : 0);
+    this.arrow?.set(wind.direction, this.hasWind ? wind.speed : 0);
     this.stage.changed = true;
   }
 
@@ -122,7 +126,7 @@ export class Show {
 
   setWireframe(on) {
     this.wireframe = on;
-    this.materials.fabric.polygonOffset = on;
+    this.wardrobe.setOffset(on);
     for (const view of this.cloths.values()) view.wireframe = on;
     this.stage.changed = true;
   }
@@ -154,6 +158,7 @@ export class Show {
     this.obstacles.move(before.obstacles, after.obstacles, share);
     this.marks.update(this.cloths);
     this.stamp = after.stamp;
+    this.behindMs = moment.settled ? null : moment.behindMs;
     this.#arrange(this.framesShown++ === 0);
     this.moving = morphing || !moment.settled;
     this.stage.changed = true;
@@ -187,7 +192,7 @@ export class Show {
       extent = Math.max(extent, ...view.size);
     }
     const {centre} = views[0];
-    this.loupe.lookAt(centre, extent);
+    this.loupe?.lookAt(centre, extent);
     const {surroundings} = this.stage;
     if (!first) return surroundings.keepGroundBelow(low);
     const floor = this.obstacles.floorHeight();

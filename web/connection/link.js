@@ -19,7 +19,7 @@ class LinkCommands extends Commands {
  * Events (all CustomEvents, payload in `detail`):
  *   state    {state: 'connecting'|'open'|'lost'|'refused'|'locked'|'resting', ...}  see worker.js
  *   message  a server message that is no reply: welcome, scene, event, stats, curve, notice
- *   frame    {frame, arrivedMs, bytes}
+ *   frame    {frame, arrivedMs, ageMs, bytes}
  */
 export class Link extends EventTarget {
   constructor() {

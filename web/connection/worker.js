@@ -18,7 +18,7 @@
  *   {kind: 'message', message}      a server message that is no reply, or {op: 'round_trip', ms}, or {op: 'surface', scene, obstacle,
  *                                   surface}: what one of the scene's meshes looks like
  *   {kind: 'reply', key, message | error}
- *   {kind: 'frame', frame, arrivedMs, bytes}             its arrays are transferred
+ *   {kind: 'frame', frame, arrivedMs, ageMs, bytes}      its arrays are transferred; ageMs: since it was sent off, NaN before a pong
  */
 import {WeftClient} from '../protocol/weft.js';
 import {kUnknownToken, kNoToken, listScenes} from './scenes.js';
@@ -168,7 +168,7 @@ async function join(name) {
 function passOn(frame) {
   const arrivedMs = performance.timeOrigin + performance.now();
   const buffers = frame.cloths.map(({positions}) => positions.buffer);
-  self.postMessage({kind: 'frame', frame, arrivedMs, bytes: CountingSocket.bytes}, buffers);
+  self.postMessage({kind: 'frame', frame, arrivedMs, ageMs: client.age(frame), bytes: CountingSocket.bytes}, buffers);
   CountingSocket.bytes = 0;
   return new Promise((resolve) => (taken = resolve));
 }

@@ -17,7 +17,7 @@ export class Card {
   constructor(scene, gallery) {
     this.name = scene.name;
     this.gallery = gallery;
-    this.miniature = new Miniature(gallery.painter.materials);
+    this.miniature = new Miniature(gallery.painter.wardrobe);
     this.preview = null;
     this.inSight = false;
     this.wanted = false;    // the viewer points at it

@@ -3,6 +3,7 @@ import {kNoToken, kUnknownToken, listScenes} from '../connection/scenes.js';
 import {Card} from './card.js';
 import {chooseLive} from './turns.js';
 import {Painter} from './painter.js';
+import {withoutHeld} from '../split/levels.js';
 
 const kMostLive = 4;     // streams at once
 const kTurnMs = 4000;    // of a card, where others wait
@@ -109,8 +110,9 @@ export class Gallery {
   /** Asks for the list of scenes, again and again; `failed`: how often in a row there was none. */
   async #look(failed) {
     const round = (this.round = (this.round ?? 0) + 1);
-    const {scenes, locked} = await listScenes(this.settings.server, this.access.token);
+    const {scenes: all, locked} = await listScenes(this.settings.server, this.access.token);
     if (!this.working || round !== this.round) return;
+    const scenes = all && withoutHeld(all);
     if (locked) return this.#askToken();
     let delay = kListMs;
     if (scenes) {

@@ -9,9 +9,9 @@ const kAstray = 0.4;    // of that ball's radius: farther the cloths do not go f
 
 /** One scene in small: what stands in it at the newest frame. */
 export class Miniature {
-  /** @param {ReturnType<import('../view/cloth_view.js').clothMaterials>} materials */
-  constructor(materials) {
-    this.materials = materials;
+  /** @param {import('../fabric/wardrobe.js').Wardrobe} wardrobe */
+  constructor(wardrobe) {
+    this.wardrobe = wardrobe;
     this.group = new Group();
     this.balls = new BallsView();
     this.obstacles = new ObstaclesView();
@@ -32,7 +32,7 @@ export class Miniature {
     this.camera = message.camera;
     this.obstacles.show(message.obstacles ?? []);
     for (const description of message.cloths) {
-      const view = new ClothView(description, this.materials, true);
+      const view = new ClothView(description, this.wardrobe, true);
       view.wireframe = false;
       this.cloths.set(view.id, view);
       this.group.add(view.group);

@@ -1,10 +1,11 @@
 import {NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer} from '../three/three.module.js';
-import {clothMaterials} from '../view/cloth_view.js';
+import {studio} from '../view/studio.js';
 import {Surroundings} from '../view/surroundings.js';
-import {weaveTextures} from '../view/weave.js';
+import {Wardrobe} from '../fabric/wardrobe.js';
 
 const kFieldOfView = 36;  // degrees
 const kShadowPixels = 1024;
+const kFabricPixels = 512;
 
 /** Draws miniatures, one after the other, with the one WebGL context that all cards share. */
 export class Painter {
@@ -16,11 +17,11 @@ export class Painter {
     this.renderer.shadowMap.enabled = settings.high;
     this.renderer.shadowMap.type = PCFShadowMap;
     const anisotropy = settings.high ? Math.min(8, this.renderer.capabilities.getMaxAnisotropy()) : 1;
-    this.materials = clothMaterials(weaveTextures(anisotropy), settings.high);
+    this.wardrobe = new Wardrobe({high: settings.high, pixels: kFabricPixels, anisotropy});
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.02, 200);
     this.surroundings = new Surroundings(this.scene, this.camera,
-      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy, changed});
+      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy, room: settings.high ? studio(this.renderer) : null, changed});
   }
 
   /** @param {import('./miniature.js').Miniature} miniature @param {HTMLCanvasElement} canvas of a card, with a 2D context */

@@ -1,10 +1,12 @@
 import {Plane, Vector3} from '../three/three.module.js';
 import {BallGrip, BodyGrip, ObstacleGrip} from './grips.js';
+import {handOver, isHandedOver, meansCamera} from './two_fingers.js';
 import {Pointing} from './pointing.js';
 import {ThrowSpeed} from './throw_speed.js';
 
 const kMoveMs = 33;   // between two commands while dragging
 const kFastest = 25;  // m/s, of a throw
+const kFingerPixels = 14;  // beside a thing, from where a finger still takes it
 
 /**
  * Takes a ball or an obstacle with mouse or finger, drags it on the plane through the point it took that faces the camera, and lets
@@ -56,6 +58,15 @@ export class BodyHand {
     return at(this.show.clothMeshes())?.distance < obstacle.distance ? null : obstacle;
   }
 
+  /** A finger covers what it points at: what is just beside it is meant, too. */
+  #hitByFinger(x, y) {
+    let hit = this.#hit(x, y);
+    for (let i = 0; !hit && i < 8; ++i) {
+      hit = this.#hit(x + kFingerPixels * Math.cos((i * Math.PI) / 4), y + kFingerPixels * Math.sin((i * Math.PI) / 4));
+    }
+    return hit;
+  }
+
   #gripOf({object, point}) {
     const {ball, obstacle, home, now} = object.userData;
     if (ball) return new BallGrip(this.actions, ball);
@@ -65,13 +76,19 @@ export class BodyHand {
   }
 
   #take(event) {
-    if (event.button !== 0 || this.drag) return;
-    const hit = this.#hit(event.clientX, event.clientY);
+    if (event.button !== 0 || isHandedOver(event)) return;
+    if (this.drag) {
+      if (meansCamera(event, this.drag)) this.#giveToCamera();
+      return;
+    }
+    if (!event.isPrimary) return;  // the second finger of a camera's two
+    const hit = event.pointerType === 'touch' ? this.#hitByFinger(event.clientX, event.clientY) : this.#hit(event.clientX, event.clientY);
     if (!hit) return;
     const grip = this.#gripOf(hit);
     const place = new Vector3(...grip.place);
     this.drag = {
       pointer: event.pointerId,
+      pressed: event,
       grip,
       mesh: hit.object,
       plane: new Plane().setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new Vector3()), place),
@@ -136,6 +153,14 @@ export class BodyHand {
     if (!drag.moved) return;
     if (drag.pending) drag.grip.move(drag.pending);
     drag.grip.letGo(opened ? drag.speed.velocity(event.timeStamp, kFastest) : null);
+  }
+
+  /** The first of two fingers lets go: together they move the camera. */
+  #giveToCamera() {
+    const {drag} = this;
+    this.#end();
+    if (drag.grip instanceof BodyGrip) drag.grip.letGo(null);
+    handOver(this.canvas, drag.pressed);
   }
 
   #end() {

@@ -1,5 +1,6 @@
 import {Plane, Vector3} from '../three/three.module.js';
 import {Pointing} from './pointing.js';
+import {handOver, isHandedOver, meansCamera} from './two_fingers.js';
 
 const kMoveMs = 33;      // between two grab.move while dragging
 const kTapPixels = 6;    // a press that moves less is a tap
@@ -84,14 +85,19 @@ export class ClothHand {
   }
 
   #take(event) {
-    if (event.button !== 0 || this.hold || !(this.tool || event.shiftKey)) return;
+    if (event.button !== 0 || isHandedOver(event)) return;
+    if (this.hold) {
+      if (meansCamera(event, this.hold)) this.#giveToCamera();
+      return;
+    }
+    if (!event.isPrimary || !(this.tool || event.shiftKey)) return;
     const at = this.#clothAt(event.clientX, event.clientY);
     if (!at) return;
     event.stopImmediatePropagation();
     const hold = {
       ...at,
       pointer: event.pointerId,
-      pressed: [event.clientX, event.clientY],
+      pressed: event,
       plane: new Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), at.point),
       position: at.point.toArray(),
       grab: null,
@@ -127,7 +133,7 @@ export class ClothHand {
     }
     if (event.pointerId !== hold.pointer) return;
     event.stopImmediatePropagation();
-    const way = Math.hypot(event.clientX - hold.pressed[0], event.clientY - hold.pressed[1]);
+    const way = Math.hypot(event.clientX - hold.pressed.clientX, event.clientY - hold.pressed.clientY);
     hold.moved ||= way > kTapPixels;
     const place = hold.moved && this.pointing.ray(event.clientX, event.clientY).intersectPlane(hold.plane, new Vector3());
     if (!place) return;  // a tap so far; or the plane is behind the camera
@@ -155,6 +161,13 @@ export class ClothHand {
 
   #drop(event) {
     if (event.pointerId === this.hold?.pointer) this.letGo();
+  }
+
+  /** The first of two fingers lets go: together they move the camera. */
+  #giveToCamera() {
+    const {pressed} = this.hold;
+    this.letGo();
+    handOver(this.canvas, pressed);
   }
 
   #tap({timeStamp, clientX, clientY}, {cloth, u, v}) {

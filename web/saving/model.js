@@ -10,8 +10,12 @@ export async function makeModel(show) {
   const model = new Group();
   model.name = show.description.name;
   model.userData = {scene: show.description.name, seconds: show.stamp.time};
-  const fabric = fabricOf(show.materials.fabric);
-  for (const view of show.cloths.values()) if (view.mesh) model.add(clothOf(view, fabric));
+  const fabrics = new Map();  // each once
+  for (const view of show.cloths.values()) {
+    if (!view.mesh) continue;
+    if (!fabrics.has(view.fabric)) fabrics.set(view.fabric, fabricOf(view.fabric));
+    model.add(clothOf(view, fabrics.get(view.fabric)));
+  }
   for (const id of show.balls.ids) model.add(solidOf(show.balls.meshes.get(id), `ball ${id}`));
   show.obstacles.meshes.forEach((mesh, index) => {
     if (mesh?.geometry.attributes.position && mesh.userData.home.shape !== 'plane') model.add(solidOf(mesh, `obstacle ${index}`));
@@ -21,11 +25,11 @@ export async function makeModel(show) {
   return new Blob([bytes], {type: 'model/gltf-binary'});
 }
 
-/** The fabric with texture coordinates that count its repeats: not every program scales a texture. */
-function fabricOf({map}) {
+/** A fabric's front with texture coordinates that count its repeats: not every program scales a texture, or draws two sides. */
+function fabricOf({materials: [{map, roughness = 0.92}]}) {
   const plain = map.clone();
   plain.repeat.set(1, 1);
-  const material = new MeshStandardMaterial({map: plain, roughness: 0.92, side: DoubleSide});
+  const material = new MeshStandardMaterial({map: plain, roughness, side: DoubleSide});
   material.name = 'fabric';
   return {material, repeat: map.repeat};
 }

@@ -1,44 +1,22 @@
-import {
-  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshLambertMaterial, MeshStandardMaterial,
-} from '../three/three.module.js';
+import {BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineSegments, Mesh} from '../three/three.module.js';
 import {centreOf, gridNormals, lowestOf, materialCoordinates, sideIndices, tornNormals, tornOn, triangleIndices} from './grid.js';
 import {Morph} from './morph.js';
-
-/**
- * What all cloths of a page share: the fabric and the wireframe's ink.
- * @param {{map: Texture, bumpMap: Texture}} textures
- * @param {boolean} high with bumps and the full model of light
- */
-export function clothMaterials({map, bumpMap}, high) {
-  const common = {
-    map,
-    side: DoubleSide,
-    // With the wireframe (see setWireframe): pushed back a little, so that lines on the same surface win.
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
-  };
-  const fabric = high
-    ? new MeshStandardMaterial({...common, bumpMap, bumpScale: 1.5, roughness: 0.92})
-    : new MeshLambertMaterial(common);
-  const wire = new LineBasicMaterial({color: 0xfff4d6, transparent: true, opacity: 0.85});
-  return {fabric, wire};
-}
 
 const same = (a, b) => a.every((value, axis) => value === b[axis]);
 
 /** One cloth on the stage: takes frames, keeps a mesh of the level at hand. */
 export class ClothView {
   /**
-   * @param {{cloth: number, name?: string, size: number[]}} description from the `scene` message
-   * @param {ReturnType<typeof clothMaterials>} materials
+   * @param {{cloth: number, name?: string, size: number[], look?: object}} description from the `scene` message
+   * @param {import('../fabric/wardrobe.js').Wardrobe} wardrobe
    * @param {boolean} instant no morph between levels
    */
-  constructor(description, materials, instant) {
+  constructor(description, wardrobe, instant) {
     this.id = description.cloth;
     this.name = description.name ?? `cloth ${description.cloth}`;
     this.size = description.size;
-    this.materials = materials;
+    this.wardrobe = wardrobe;
+    this.fabric = wardrobe.lend(description.look);
     this.instant = instant;
     this.morph = new Morph(instant);
     this.group = new Group();  // stands at the origin
@@ -116,6 +94,7 @@ export class ClothView {
   }
 
   dispose() {
+    this.wardrobe.takeBack(this.fabric);
     this.geometry?.dispose();
     this.lines?.geometry.dispose();
     this.group.removeFromParent();
@@ -156,13 +135,15 @@ export class ClothView {
       .setAttribute('normal', dynamic())
       .setAttribute('uv', new BufferAttribute(materialCoordinates(rows, cols, ...this.size), 2))
       .setIndex(new BufferAttribute(triangleIndices(rows, cols), 1));
+    if (this.fabric.materials.length > 1) this.fabric.materials.forEach((_, side) => this.geometry.addGroup(0, Infinity, side));
     const sides = new BufferGeometry()
       .setAttribute('position', position)
       .setIndex(new BufferAttribute(sideIndices(rows, cols), 1));
     if (!this.mesh) {
-      this.mesh = new Mesh(this.geometry, this.materials.fabric);
+      const {materials} = this.fabric;
+      this.mesh = new Mesh(this.geometry, materials.length > 1 ? materials : materials[0]);
       this.mesh.castShadow = this.mesh.receiveShadow = true;
-      this.lines = new LineSegments(sides, this.materials.wire);
+      this.lines = new LineSegments(sides, this.wardrobe.wire);
       // The mesh moves every frame: bounds would have to be computed anew each time, for a thing nearly always in view.
       this.mesh.frustumCulled = this.lines.frustumCulled = false;
       this.lines.visible = this.wireframeVisible ?? false;

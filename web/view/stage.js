@@ -1,4 +1,5 @@
 import {NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from '../three/three.module.js';
+import {studio} from './studio.js';
 import {Surroundings} from './surroundings.js';
 
 const kRoomyAspect = 1.25;  // of a window at least so wide the field of view is the one set
@@ -27,9 +28,18 @@ export class Stage {
     /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
     this.overlays = [];
     this.surroundings = new Surroundings(this.scene, this.camera,
-      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, changed: () => (this.changed = true)});
-    new ResizeObserver(() => this.#resize()).observe(canvas);
+      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, room: settings.high ? studio(this.renderer) : null, changed: () => (this.changed = true)});
+    this.sizes = new ResizeObserver(() => this.#resize());
+    this.sizes.observe(canvas);
     this.#resize();
+  }
+
+  /** Gives the graphics card back what this holds of it; nothing can be drawn any more. */
+  dispose() {
+    this.sizes.disconnect();
+    this.surroundings.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Parts of the canvas that lie under panels, CSS pixels: what is looked at stands in the middle of the rest. */

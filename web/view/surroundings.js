@@ -4,9 +4,10 @@ import {
 } from '../three/three.module.js';
 
 const kThemes = {
-  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, shadow: 0.22},
-  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, shadow: 0.5},
+  light: {background: 0xe9ebee, line: 'rgba(40, 50, 70, 0.3)', sky: 0xffffff, earth: 0xd6cdc2, ambient: 1.9, room: 0.42, shadow: 0.22},
+  dark: {background: 0x171a20, line: 'rgba(190, 205, 235, 0.26)', sky: 0xcfd8ea, earth: 0x3a3634, ambient: 1.2, room: 0.4, shadow: 0.5},
 };
+const kBesideRoom = 0.25;  // share of the plain ambient light that is left beside a room's
 const kGroundMetres = 40;
 const kGroundGap = 0.02;  // m, to the lowest thing above it
 
@@ -15,11 +16,12 @@ export class Surroundings {
   /**
    * @param {import('../three/three.module.js').Scene} scene
    * @param {import('../three/three.module.js').Camera} camera part of the scene from here on: a light goes with it
-   * @param {{shadowPixels: number, anisotropy: number, changed: () => void}} options side of the shadow's picture, 0 for none; how many
-   *   samples slanted textures may cost; what is called when the colours have changed
+   * @param {{shadowPixels: number, anisotropy: number, room: Texture|null, changed: () => void}} options side of the shadow's picture,
+   *   0 for none; how many samples slanted textures may cost; what all around shines (studio.js); what is called when the colours have changed
    */
-  constructor(scene, camera, {shadowPixels, anisotropy, changed}) {
+  constructor(scene, camera, {shadowPixels, anisotropy, room, changed}) {
     this.scene = scene;
+    this.scene.environment = room;
     this.shadows = shadowPixels > 0;
     this.anisotropy = anisotropy;
     this.#addLights(camera, shadowPixels);
@@ -49,6 +51,11 @@ export class Surroundings {
     this.grid.position.y = this.ground.position.y - 0.001;
   }
 
+  /** Follows what the viewer prefers no more. */
+  dispose() {
+    this.dark.removeEventListener('change', this.apply);
+  }
+
   #addLights(camera, shadowPixels) {
     this.ambient = new HemisphereLight();
     this.key = new DirectionalLight(0xfff3e0, 2.7);
@@ -61,7 +68,7 @@ export class Surroundings {
     const rim = new DirectionalLight(0xbcd0ff, 0.7);
     rim.position.set(-3, 1.5, -4);
     // And one that goes with the viewer: what is looked at is never black.
-    const head = new DirectionalLight(0xffffff, 0.7);
+    const head = new DirectionalLight(0xffffff, this.scene.environment ? 0.45 : 0.7);
     camera.add(head, head.target);
     head.target.position.set(0, 0, -1);
     head.position.set(0, 0, 0);
@@ -78,21 +85,23 @@ export class Surroundings {
   }
 
   #followTheme(changed) {
-    const query = matchMedia('(prefers-color-scheme: dark)');
-    const apply = () => {
-      const theme = kThemes[query.matches ? 'dark' : 'light'];
+    this.dark = matchMedia('(prefers-color-scheme: dark)');
+    this.apply = () => {
+      const theme = kThemes[this.dark.matches ? 'dark' : 'light'];
       this.scene.background = new Color(theme.background);
       this.ambient.color.set(theme.sky);
       this.ambient.groundColor.set(theme.earth);
-      this.ambient.intensity = theme.ambient;
+      // The room's light comes from all around as well.
+      this.ambient.intensity = this.scene.environment ? theme.ambient * kBesideRoom : theme.ambient;
+      this.scene.environmentIntensity = theme.room;
       this.ground.material.opacity = theme.shadow;
       this.grid.material.map?.dispose();
       this.grid.material.map = tileTexture(theme.line, this.anisotropy);
       this.grid.material.needsUpdate = true;
       changed();
     };
-    query.addEventListener('change', apply);
-    apply();
+    this.dark.addEventListener('change', this.apply);
+    this.apply();
   }
 }
 

@@ -50,7 +50,8 @@ export class Timeline {
   /**
    * What to show at `nowMs` (same clock as `arrivedMs`): mix `before` and `after` by `share`. Null before the first frame.
    * Never extrapolates: beyond the newest frame it is the newest.
-   * @returns {{before: object, after: object, share: number, settled: boolean}|null} settled: nothing newer to move to
+   * @returns {{before: object, after: object, share: number, behindMs: number, settled: boolean}|null} behindMs: how
+   *   much older this is than the newest frame, by the server's clock; settled: nothing newer to move to
    */
   sample(nowMs) {
     if (this.entries.length === 0) return null;
@@ -63,6 +64,7 @@ export class Timeline {
       before: before.frame,
       after: after.frame,
       share,
+      behindMs: this.entries.at(-1).at - (before.at + share * span),
       settled: share === 1 && this.entries.length <= 2,
     };
   }

@@ -41,6 +41,30 @@ class MaterialCommands : public LiveSceneTest {
   }
 };
 
+class Looks : public LiveSceneTest {
+ protected:
+  static scene::Scene looks() {
+    scene::Scene scene = hung_cloth();
+    scene.simulation.cloths.push_back(scene.simulation.cloths[0]);
+    scene.simulation.cloths[1].position = {0, 0, 1};
+    scene.looks = {
+        {"twill", "#24406e", "#c9cdd3", "", 0.003, {}},
+        {"plain", "#ffffff", "#fffffe", "#000000", 0.002, scene::Stripe{"#b3263c", 0.06, 0.12, 3, true}}};
+    return scene;
+  }
+  Looks() : LiveSceneTest(looks()) {}
+};
+
+TEST_F(Looks, AreTold) {
+  drain();
+  const json cloths = other.last("scene").at("cloths");
+  EXPECT_EQ(cloths.at(0).at("look"),
+            json::parse(R"({"weave": "twill", "colour": "#24406e", "weft": "#c9cdd3", "thread": 0.003})"));
+  EXPECT_EQ(cloths.at(1).at("look"), json::parse(R"({
+    "weave": "plain", "colour": "#ffffff", "weft": "#fffffe", "back": "#000000", "thread": 0.002,
+    "stripe": {"colour": "#b3263c", "width": 0.06, "spacing": 0.12, "bands": 3, "across": true}})"));
+}
+
 TEST_F(MaterialCommands, ASceneTellsItsMaterialsAndWhatTheyMayBe) {
   drain();
   const json scene = other.last("scene");
