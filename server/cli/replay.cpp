@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/progress.h"
 #include "cli/serving.h"
 #include "cli/threads.h"
 #include "cloth/world/state_hash.h"
@@ -75,7 +76,9 @@ int replay(const ReplayOptions& options) {
     print_place(replay);
   }
   if (!options.validate) return 0;
-  while (!replay.divergence() && replay.step()) {
+  {
+    Progress progress("validating " + scene.name, static_cast<int>(recording.steps()), "steps");
+    while (!replay.divergence() && replay.step()) progress.show(static_cast<int>(replay.steps()));
   }
   if (const auto& other = replay.divergence()) {
     std::printf("  after %" PRIu64 " steps the state is another: %016" PRIx64 ", recorded was %016" PRIx64

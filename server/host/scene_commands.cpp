@@ -252,6 +252,11 @@ void LiveScene::begun_anew() {
                 {"frictions", frictions_json(simulation_.colliders())},
                 {"pins", pins_json(simulation_.cloths())}};
   });
+  if (plays()) {
+    told_ = told();
+    // A reset has all effects on, but a recording may begin where some are off.
+    for (const std::string& effect : effects_off_) effect_set(effect);
+  }
   request_levels();
 }
 

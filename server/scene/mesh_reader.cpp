@@ -1,8 +1,11 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "cloth/shapes/closed_surface.h"
 #include "scene/convex_hull.h"
+#include "scene/hole_filling.h"
 #include "scene/lathe.h"
 #include "scene/obj_file.h"
 #include "scene/readers.h"
@@ -87,6 +90,9 @@ const char* source_of(Object& object, const std::vector<const char*>& sources) {
 std::shared_ptr<const TriangleMesh> solid_within(const TriangleList& list) {
   try {
     return std::make_shared<const TriangleMesh>(list);
+  } catch (const OpenSurface& error) {
+    throw std::invalid_argument("is no solid: " + std::string(error.what()) +
+                                R"(; "fill_holes": true closes it)");
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("is no solid: " + std::string(error.what()));
   }
@@ -100,6 +106,8 @@ MeshDescription read_mesh(Object& object, bool convex, std::size_t room, const S
   double scale = 1;
   object.number("scale", scale, kScale);
   mesh.orientation = read_turn(object, Quaternion::Identity());
+  bool fill = false;
+  if (!convex) object.boolean("fill_holes", fill);  // a hull has none
   std::string file;
   const bool named = object.string(kFile, file, 1000);
   const char* source = source_of(object, {kFile, kLathe, convex ? kPoints : kVertices});
@@ -124,6 +132,12 @@ MeshDescription read_mesh(Object& object, bool convex, std::size_t room, const S
       if (!near) throw std::invalid_argument("has a vertex beyond 10000 m of the origin, or not finite");
     }
     if (convex) list = convex_hull(list.vertices);
+    if (fill) {
+      FilledSurface filled = fill_holes(list);
+      list = std::move(filled.surface);
+      if (filled.holes > 0)
+        object.report().note(object.path(source) + ": holes filled: " + std::to_string(filled.holes));
+    }
     if (list.triangles.size() > room) {
       throw std::invalid_argument("has " + std::to_string(list.triangles.size()) + " triangles; at most " +
                                   std::to_string(kMaxMeshTriangles) +

@@ -35,11 +35,15 @@ class Report {
   /// The same of what must be one of the names, and which of them was probably meant.
   void refuse_name(const nlohmann::json& value, const std::string& path, const std::string& expected,
                    const std::vector<std::string_view>& names);
+  /// What is told of a scene that has no problems.
+  void note(std::string text) { notes_.push_back(std::move(text)); }
   std::size_t count() const { return problems_.size(); }
   std::vector<Problem> take() { return std::move(problems_); }
+  std::vector<std::string> take_notes() { return std::move(notes_); }
 
  private:
   std::vector<Problem> problems_;
+  std::vector<std::string> notes_;
   std::map<std::string, std::string> overflows_;
 };
 

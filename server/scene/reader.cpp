@@ -165,6 +165,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
   }
   auto problems = report.take();
   if (!problems.empty()) return problems;
+  for (std::string& note : report.take_notes()) scene.notes.push_back(std::move(note));
   return scene;
 }
 

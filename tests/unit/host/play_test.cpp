@@ -181,6 +181,20 @@ TEST_F(Play, PausesAtItsEndAndBeginsAnewByReset) {
   EXPECT_EQ(reset.at("wind").at("speed"), 2);  // as then
 }
 
+// To viewers a reset has all effects on, but at step 15 of this recording gravity was off.
+TEST_F(Play, TellsWhichEffectsAreOffWhereItBeginsAnew) {
+  Watched shown(playing(15));
+  shown.command(protocol::Reset{});
+  const auto& texts = shown.reader.texts;
+  const auto is = [](const char* kind) {
+    return [kind](const json& text) { return text.value("kind", "") == kind; };
+  };
+  const auto reset = std::find_if(texts.begin(), texts.end(), is("reset"));
+  const auto effect = std::find_if(reset, texts.end(), is("effect"));
+  ASSERT_NE(effect, texts.end());
+  EXPECT_EQ(effect->at("effects_off"), json({"gravity"}));
+}
+
 TEST_F(Play, LoopsIfItIsToldTo) {
   Watched shown(playing(5, true));
   shown.steps(kSteps - 5);

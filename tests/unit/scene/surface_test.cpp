@@ -115,7 +115,7 @@ TEST_F(SurfaceFile, SaysWhatIsWrongWithIt) {
   EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
             "is no solid: the surface is not closed: 3 edges have one triangle, the first at [0, 0, 0]; a "
             "solid has "
-            "an inside\n");
+            "an inside; \"fill_holes\": true closes it\n");
   EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
             "is no solid: triangle 0 has corner 8; there are 3 vertices, counted from 0\n");
   EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1e999 0\nf 1 2 3\n"),
@@ -123,6 +123,23 @@ TEST_F(SurfaceFile, SaysWhatIsWrongWithIt) {
   std::string open = box_;
   open.resize(open.rfind("f "));
   EXPECT_EQ(refusal(open).substr(0, 62), "is no solid: the surface is not closed: 4 edges have one trian");
+}
+
+TEST_F(SurfaceFile, HolesAreFilledIfItIsToldTo) {
+  std::string open = box_;
+  open.resize(open.rfind("f "));
+  write("scenes/open.obj", open);
+  const auto read = [&](const char* fill) {
+    write("scenes/filled.json", R"({"cloths": [{}], "colliders": [{"type": "mesh", "file": "open.obj",
+                                    "position": [0, 0, 0], "fill_holes": )" +
+                                    std::string(fill) + "}]}");
+    return load((folder_ / "scenes/filled.json").string());
+  };
+  const Result filled = read("true");
+  ASSERT_TRUE(std::holds_alternative<Scene>(filled));
+  EXPECT_EQ(std::get<Scene>(filled).notes, (std::vector<std::string>{"/colliders/0/file: holes filled: 1"}));
+  EXPECT_TRUE(std::holds_alternative<std::vector<Problem>>(read("false")));
+  EXPECT_TRUE(std::holds_alternative<std::vector<Problem>>(read("1")));
 }
 
 TEST_F(SurfaceFile, LargerThanAllowedIsRefusedUnread) {
