@@ -36,9 +36,9 @@ struct Scene {
   Vec3 camera_target{0.0, 0.0, 0.0};
   SimulationDescription simulation;
   std::vector<Look> looks;  ///< of each cloth
-  std::string document;  ///< the scene as JSON text, with overrides: what it was read from
-  std::string folder;    ///< that files named in it are beside; empty: it may name none
-  Quality quality;       ///< asks for nothing: stepped as the simulation says
+  std::string document;     ///< the scene as JSON text, with overrides: what it was read from
+  std::string folder;       ///< that files named in it are beside; empty: it may name none
+  Quality quality;          ///< asks for nothing: stepped as the simulation says
 };
 
 /// The scene, or everything that is wrong with it (all problems at once).
