@@ -19,7 +19,8 @@ const kWindow = {viewport: {width: 1280, height: 800}, deviceScaleFactor: 1};
 
 test('screenshots', {timeout: 900_000}, async () => {
   await mkdir(folder, {recursive: true});
-  const server = await startServer([...Object.keys(kGallery), fileURLToPath(new URL('scenes/small.json', import.meta.url))]);
+  const own = ['small', 'fabrics'].map((name) => fileURLToPath(new URL(`scenes/${name}.json`, import.meta.url)));
+  const server = await startServer([...Object.keys(kGallery), ...own]);
   const open = async (scene, options = {}) => {
     const {page} = await openPage(`${server.address}/?scene=${scene}`, {...kWindow, ...options});
     await until(page, () => weft.stats.connected && weft.stats.cloths.length > 0);
@@ -56,6 +57,11 @@ test('screenshots', {timeout: 900_000}, async () => {
   const dark = await open('flag', {colorScheme: 'dark'});
   await save(dark, 'flag-dark', 3);
   await dark.close();
+
+  const fabrics = await open('fabrics', {viewport: {width: 1280, height: 720}});
+  await fabrics.addStyleTag(kNothingBeside);
+  await save(fabrics, 'fabrics', 3);
+  await fabrics.close();
 
   const cost = await open('small', {viewport: {width: 900, height: 860}});
   await cost.click('#cost summary');

@@ -17,8 +17,6 @@ import {kWeaves} from './weaves.js';
 const kUntold = {weave: 'plain', colour: '#2c5894', weft: '#4674b0', thread: 0.006};
 const kIdle = 16;  // fabrics that nobody wears any more and that are kept all the same
 
-const kNormalScale = 1;
-
 /** The fabrics of a page, each drawn once: cloths that look alike share theirs. */
 export class Wardrobe {
   /** @param {{high: boolean, pixels: number, anisotropy: number}} options `high`: with slopes and the full model of light; side of a picture */
@@ -60,7 +58,8 @@ export class Wardrobe {
     for (const {fabric} of this.entries.values()) for (const material of fabric.materials) material.polygonOffset = on;
   }
 
-  #materials(look) {
+  #materials(told) {
+    const look = {...kUntold, ...told};  // a later server may leave out what this page needs
     const weave = kWeaves[look.weave] ?? kWeaves.plain;
     const front = {warp: look.colour, weft: look.weft, stripe: look.stripe};
     if (!weave.back && !look.back) return [this.#material(look, weave, weave.front, front, DoubleSide)];
@@ -73,12 +72,11 @@ export class Wardrobe {
 
   #material(look, weave, side, colours, faces) {
     const {high, pixels, anisotropy} = this.options;
-    const {map, normalMap} = drawSide(look, weave, {...side, colours}, {pixels, anisotropy, slopes: high});
+    const {map, normalMap} = drawSide(look, weave, {...side, colours}, {pixels: pixels * (weave.detail ?? 1), anisotropy, slopes: high});
     const common = {map, side: faces, polygonOffset: this.offset, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
     if (!high) return new MeshLambertMaterial(common);
     const {fuzz = 0, ...surface} = side.surface;
     const material = new MeshPhysicalMaterial({...common, ...surface, normalMap});
-    material.normalScale.set(kNormalScale, kNormalScale);
     material.sheenColor = new Color(colours.warp).lerp(new Color(0xffffff), fuzz);
     return material;
   }

@@ -18,6 +18,7 @@ import {woven} from './woven.js';
  * @typedef {object} Weave
  * @property {number} threads that a picture has side by side
  * @property {number} period threads after which the weave itself repeats
+ * @property {number} [detail] share of a picture's side that is enough for it (default 1)
  * @property {Side} front
  * @property {Side} [back] where the other side is another one
  */
@@ -49,17 +50,17 @@ export const kWeaves = {
   },
   canvas: {threads: 64, period: 4, front: {pattern: woven(basket, {uneven: 0.22, streak: 16}), relief: 0.4, surface: {...kCotton, roughness: 0.95}}},
   wool: {
-    threads: 64, period: 2,
+    threads: 64, period: 2, detail: 0.5,
     front: {pattern: felted(woven(plain)), relief: 0.5, surface: {roughness: 1, sheen: 1, sheenRoughness: 0.55, fuzz: 0.45, specularIntensity: 0.2}},
   },
   knit: {
-    threads: 32, period: 1,
+    threads: 32, period: 1, detail: 0.5,
     front: {pattern: knitted, relief: 0.45, surface: {roughness: 1, sheen: 0.8, sheenRoughness: 0.6, fuzz: 0.4, specularIntensity: 0.3}},
   },
   leather: {
-    threads: 48, period: 1,
+    threads: 48, period: 1, detail: 0.5,
     front: {pattern: grained, relief: 0.14, surface: {roughness: 0.46, specularIntensity: 0.9}},
     back: {pattern: suede, relief: 0.2, surface: {roughness: 1, sheen: 0.8, sheenRoughness: 0.5, fuzz: 0.5, specularIntensity: 0.2}},
   },
-  paper: {threads: 64, period: 1, front: {pattern: pressed, relief: 0.12, surface: {roughness: 0.82, specularIntensity: 0.5}}},
+  paper: {threads: 64, period: 1, detail: 0.5, front: {pattern: pressed, relief: 0.12, surface: {roughness: 0.82, specularIntensity: 0.5}}},
 };

@@ -27,8 +27,12 @@ export class Stage {
     this.insets = {right: 0, bottom: 0};
     /** Drawn over the scene, in their own corner. @type {{draw: (renderer: WebGLRenderer, view: PerspectiveCamera) => void}[]} */
     this.overlays = [];
-    this.surroundings = new Surroundings(this.scene, this.camera,
-      {shadowPixels: settings.high ? kShadowPixels : 0, anisotropy: this.anisotropy, room: settings.high ? studio(this.renderer) : null, changed: () => (this.changed = true)});
+    this.surroundings = new Surroundings(this.scene, this.camera, {
+      shadowPixels: settings.high ? kShadowPixels : 0,
+      anisotropy: this.anisotropy,
+      room: settings.high ? studio(this.renderer) : null,
+      changed: () => (this.changed = true),
+    });
     this.sizes = new ResizeObserver(() => this.#resize());
     this.sizes.observe(canvas);
     this.#resize();
