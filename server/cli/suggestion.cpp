@@ -26,7 +26,8 @@ std::string suggestion(const CLI::App& app) {
   for (const std::string& word : app.remaining(true)) {
     const std::string given = word.substr(0, word.find('='));
     const std::string meant = scene::did_you_mean(given, {names.begin(), names.end()});
-    if (!meant.empty()) return "weft: " + given + " is unknown" + meant + "\n";
+    if (!meant.empty())
+      return std::string("weft: ").append(given).append(" is unknown").append(meant).append("\n");
   }
   return {};
 }

@@ -1,20 +1,20 @@
 // Files of `weft run` read by others: .glb by Khronos' validator and three.js, .usda by three.js; each frame is that of the .csv.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
 import validator from 'gltf-validator';
-import { AnimationMixer, LoopOnce, Vector3 } from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { USDLoader } from 'three/addons/loaders/USDLoader.js';
+import {AnimationMixer, LoopOnce, Vector3} from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import {USDLoader} from 'three/addons/loaders/USDLoader.js';
 
 globalThis.self ??= globalThis;  // GLTFLoader's name for it
 
 let folder;
-before(() => { folder = mkdtempSync(join(tmpdir(), 'weft-exports-')); });
-after(() => rmSync(folder, { recursive: true }));
+before(() => {folder = mkdtempSync(join(tmpdir(), 'weft-exports-'));});
+after(() => rmSync(folder, {recursive: true}));
 
 const path = (name) => join(folder, name);
 const run = (scene, frames, level, names, ...more) => execFileSync(process.env.WEFT_BINARY, ['run', scene,
@@ -25,7 +25,7 @@ function framesOf(name) {
   const frames = [];
   for (const line of readFileSync(path(name), 'utf8').trim().split('\n').slice(1)) {
     const [frame, time, , , x, y, z] = line.split(',').map(Number);
-    (frames[frame] ??= { time, positions: [] }).positions.push(x, y, z);
+    (frames[frame] ??= {time, positions: []}).positions.push(x, y, z);
   }
   return frames;
 }
@@ -37,7 +37,7 @@ function near(found, expected, tolerance, what) {
 }
 
 async function validated(name) {
-  const { issues } = await validator.validateBytes(new Uint8Array(readFileSync(path(name))));
+  const {issues} = await validator.validateBytes(new Uint8Array(readFileSync(path(name))));
   assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify(issues.messages.slice(0, 5)));
   const bytes = readFileSync(path(name));
   return new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
@@ -54,7 +54,7 @@ function seenAt(gltf, time, named) {
   mixer.setTime(time);
   gltf.scene.updateMatrixWorld(true);
   const seen = [];
-  gltf.scene.traverse((node) => { if (node.isMesh && node.name.startsWith(named) && node.scale.x > 0) seen.push(node); });
+  gltf.scene.traverse((node) => {if (node.isMesh && node.name.startsWith(named) && node.scale.x > 0) seen.push(node);});
   return seen;
 }
 
@@ -97,7 +97,7 @@ test('all cloths, balls and obstacles are in one .glb', async () => {
     '/cloths/-={"name": "second", "size": [0.5, 0.5], "levels": {"min": 3, "max": 3}, "position": [3, 0, 0], "pins": ["top"]}');
   const gltf = await validated('all.glb');
   const names = new Set();
-  gltf.scene.traverse((node) => { if (node.isMesh) names.add(node.name.replace(/\d+$/, '')); });
+  gltf.scene.traverse((node) => {if (node.isMesh) names.add(node.name.replace(/\d+$/, ''));});
   assert.deepEqual([...names].sort(), ['ball-', 'obstacle-', 'paper', 'second']);
 });
 
@@ -116,9 +116,9 @@ test('a .usda has each frame; three.js reads its meshes and how bodies move', as
 
   const group = new USDLoader().parse(text);
   const meshes = {};
-  group.traverse((node) => { if (node.isMesh) meshes[node.name] = node; });
+  group.traverse((node) => {if (node.isMesh) meshes[node.name] = node;});
   assert.deepEqual(Object.keys(meshes).sort(), ['ball_1', 'cloth']);
-  const { position, normal, uv } = meshes.cloth.geometry.attributes;
+  const {position, normal, uv} = meshes.cloth.geometry.attributes;
   assert.equal(position.count, 16 * 16 * 6);  // each corner of each triangle
   assert.equal(normal.count, position.count);
   assert.equal(uv.count, position.count);
