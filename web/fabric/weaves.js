@@ -33,7 +33,7 @@ const basket = (i, j) => mod(Math.floor(i / 2) + Math.floor(j / 2), 2) === 0;
 
 const kCotton = {roughness: 0.9, sheen: 0.25, sheenRoughness: 0.7, fuzz: 0.5};
 const kDenim = {roughness: 0.88, sheen: 0.2, sheenRoughness: 0.6, fuzz: 0.6};
-const kSilk = {roughness: 0.34, anisotropy: 0.75, sheen: 0.7, sheenRoughness: 0.35, fuzz: 0.35, specularIntensity: 1};
+const kSilk = {roughness: 0.34, anisotropy: 0.75, sheen: 0.7, sheenRoughness: 0.35, fuzz: 0.35};
 
 /** @type {Record<string, Weave>} */
 export const kWeaves = {
