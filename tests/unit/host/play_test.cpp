@@ -19,8 +19,8 @@ scene::Scene scene_of_sheet() {
 }
 
 /// A scene with one viewer.
-struct Watched {
-  explicit Watched(const std::optional<Playing>& playing = {})
+struct WatchedPlay {
+  explicit WatchedPlay(const std::optional<Playing>& playing = {})
       : live(scene_of_sheet(), protocol::Limits{}, playing), visit(reader.viewer->enter()) {
     live.add_viewer(reader.viewer, visit);
     reader.drain();
@@ -55,7 +55,7 @@ class Play : public ::testing::Test {
  protected:
   /// Records what a viewer does in kSteps steps, and the state after each.
   Play() {
-    Watched was;
+    WatchedPlay was;
     std::string bytes;
     const auto recorder = std::make_shared<record::Recorder>(scene_of_sheet(), json::object(),
                                                              [&](const std::string& more) { bytes += more; });
@@ -87,7 +87,7 @@ class Play : public ::testing::Test {
 };
 
 TEST_F(Play, EachStepIsAsItWasRecorded) {
-  Watched shown(playing());
+  WatchedPlay shown(playing());
   for (std::size_t step = 1; step <= kSteps; ++step) {
     shown.steps(1);
     // Commands that come before the next step are done already, but change nothing until it.
@@ -99,7 +99,7 @@ TEST_F(Play, EachStepIsAsItWasRecorded) {
 }
 
 TEST_F(Play, ViewersAreToldWhatWasCommanded) {
-  Watched shown(playing());
+  WatchedPlay shown(playing());
   shown.steps(9);
   EXPECT_EQ(shown.reader.texts.back().at("op"), "scene") << "nothing was commanded yet";
   shown.steps(1);
@@ -116,7 +116,7 @@ TEST_F(Play, ViewersAreToldWhatWasCommanded) {
 }
 
 TEST_F(Play, WhoComesLateIsToldTheSame) {
-  Watched shown(playing());
+  WatchedPlay shown(playing());
   shown.steps(22);
   Reader late;
   shown.live.add_viewer(late.viewer, late.viewer->enter());
@@ -129,13 +129,13 @@ TEST_F(Play, WhoComesLateIsToldTheSame) {
 }
 
 TEST_F(Play, BeginsWhereItIsTold) {
-  const Watched shown(playing(15));
+  const WatchedPlay shown(playing(15));
   EXPECT_EQ(shown.hash(), hashes_[15]);
   EXPECT_EQ(shown.live.simulation().step_count(), 15u);
 }
 
 TEST_F(Play, WhatWouldChangeItIsRefused) {
-  Watched shown(playing());
+  WatchedPlay shown(playing());
   shown.steps(3);
   for (const SceneCommand& command : std::initializer_list<SceneCommand>{
            protocol::BallAdd{.position = {0, 0, 0.4}, .radius = 0.1}, protocol::WindSet{{1, 0, 0}, 5},
@@ -152,7 +152,7 @@ TEST_F(Play, WhatWouldChangeItIsRefused) {
 }
 
 TEST_F(Play, CanBePausedSteppedAndSeenFromAnywhere) {
-  Watched shown(playing());
+  WatchedPlay shown(playing());
   EXPECT_EQ(shown.command(protocol::Pause{}).at("op"), "ok");
   EXPECT_FALSE(shown.live.wants_step());
   EXPECT_EQ(shown.command(protocol::Step{4}).at("op"), "ok");
@@ -164,7 +164,7 @@ TEST_F(Play, CanBePausedSteppedAndSeenFromAnywhere) {
 }
 
 TEST_F(Play, PausesAtItsEndAndBeginsAnewByReset) {
-  Watched shown(playing(5));
+  WatchedPlay shown(playing(5));
   shown.steps(kSteps - 5);
   EXPECT_TRUE(shown.live.paused());
   EXPECT_EQ(shown.events("pause"), 1);
@@ -183,7 +183,7 @@ TEST_F(Play, PausesAtItsEndAndBeginsAnewByReset) {
 
 // To viewers a reset has all effects on, but at step 15 of this recording gravity was off.
 TEST_F(Play, TellsWhichEffectsAreOffWhereItBeginsAnew) {
-  Watched shown(playing(15));
+  WatchedPlay shown(playing(15));
   shown.command(protocol::Reset{});
   const auto& texts = shown.reader.texts;
   const auto is = [](const char* kind) {
@@ -196,7 +196,7 @@ TEST_F(Play, TellsWhichEffectsAreOffWhereItBeginsAnew) {
 }
 
 TEST_F(Play, LoopsIfItIsToldTo) {
-  Watched shown(playing(5, true));
+  WatchedPlay shown(playing(5, true));
   shown.steps(kSteps - 5);
   EXPECT_FALSE(shown.live.paused());
   EXPECT_EQ(shown.live.epoch(), 2u);
