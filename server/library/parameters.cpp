@@ -30,6 +30,7 @@ const typename Known::value_type& named(const Known& known, std::string_view nam
       std::find_if(known.begin(), known.end(), [&](const auto& each) { return each.name == name; });
   if (found != known.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(known.size());
   for (const auto& each : known) names.emplace_back(each.name);
   refuse_name("parameter", name, names);
 }
