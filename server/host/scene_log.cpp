@@ -46,6 +46,14 @@ fs::path gone(const fs::path& folder) {
   return folder.parent_path() / name;
 }
 
+/// Until it is, or for 2 s, as on a disk that is full.
+template <class Done>
+void wait_for_disk(const Done& done) {
+  constexpr std::chrono::milliseconds kLongest(2000), kStep(5);
+  const auto until = std::chrono::steady_clock::now() + kLongest;
+  while (!done() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kStep);
+}
+
 std::uint64_t number_of(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::uint64_t number = 0;
@@ -76,7 +84,10 @@ void SceneLog::begin(LiveScene& live) {
   }
   if (!places_.data.empty()) {
     data_writer_ = writer("data", kKept);
-    begin_file(live);
+    const fs::path file = begin_file(live);
+    // Before anybody is shown the scene: else the next start, after a kill, would be in the same epoch.
+    std::error_code none;
+    wait_for_disk([&] { return fs::exists(file, none); });
   }
 }
 
@@ -121,11 +132,12 @@ void SceneLog::forget() {
   }
 }
 
-void SceneLog::begin_file(LiveScene& live) {
+fs::path SceneLog::begin_file(LiveScene& live) {
   if (data_) data_->flush();
   char name[32];
   std::snprintf(name, sizeof name, "%012llu%s", static_cast<unsigned long long>(next_file_++), kExtension);
-  data_writer_->begin(places_.data / name);
+  fs::path file = places_.data / name;
+  data_writer_->begin(file);
   data_ = recorder(*data_writer_, true);
   data_->add_state(live.simulation());
   data_->add_hash(live.simulation());
@@ -139,6 +151,7 @@ void SceneLog::begin_file(LiveScene& live) {
   steps_at_ = live.simulation().step_count();
   changed_ = false;
   state_due_ = std::chrono::steady_clock::now() + kStatePeriod;
+  return file;
 }
 
 std::shared_ptr<record::Recorder> SceneLog::recorder(record::LogWriter& writer, bool of_data) const {
@@ -189,10 +202,7 @@ bool SceneLog::go_on_from(LiveScene& live, const fs::path& file) {
 }
 
 void wait_until_kept(const fs::path& folder) {
-  constexpr std::chrono::milliseconds kLongest(2000), kStep(5);
-  const auto until = std::chrono::steady_clock::now() + kLongest;
-  while (files_in(folder).empty() && std::chrono::steady_clock::now() < until)
-    std::this_thread::sleep_for(kStep);
+  wait_for_disk([&] { return !files_in(folder).empty(); });
 }
 
 void set_gone(const fs::path& folder) {

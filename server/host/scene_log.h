@@ -41,7 +41,8 @@ class SceneLog {
   SceneLog(const scene::Scene& scene, LogPlaces places, SceneMetrics& metrics);
 
   /// Goes on from where the data end, if there are any of this scene and this build; files that are not are
-  /// set aside, by another name. Then begins to write.
+  /// set aside, by another name. Then begins to write, and returns when its first state is there, so that no
+  /// epoch comes twice.
   void begin(LiveScene& live);
   /// Writes down what has happened since the last call; `served`: by a command, perhaps beside the
   /// simulation, too.
@@ -55,7 +56,8 @@ class SceneLog {
   /// False if there was nothing to go on from.
   bool restore(LiveScene& live);
   bool go_on_from(LiveScene& live, const std::filesystem::path& file);
-  void begin_file(LiveScene& live);
+  /// Returns it; it is there once the writer has come to it.
+  std::filesystem::path begin_file(LiveScene& live);
   std::shared_ptr<record::Recorder> recorder(record::LogWriter& writer, bool of_data) const;
   std::unique_ptr<record::LogWriter> writer(const char* what, std::size_t kept);
 

@@ -139,12 +139,12 @@ TEST(TornSprings, AreNoPartOfTheLinearisation) {
 TEST(LinkLoads, AreTheTensionPerMetreOfAnEvenlyStretchedSheet) {
   // 1 m x 2 m, stretched by 2 % along v alone: structural springs Y e, a diagonal at 45 degrees e / 2 longer
   // with k = G, two a cell, sin^2 45 of each per metre across: G e / 2 ... to second order in e.
-  constexpr double kStretch = 1e-4, kStructural = 500, kShear = 200;
+  constexpr double kStretch = 1e-4, kStiff = 500, kShear = 200;
   VectorField<double> position(kSheetBase.at(3));
   each_node(position.grid(), [&](int r, int c) {
     set(position, r, c, {c / 8.0, -r / 8.0 * (1 + kStretch), 0});
   });
-  const Springs<double> springs(test::stiffnesses(kStructural, kShear, 0), Discretization::continuum, {1, 2},
+  const Springs<double> springs(test::stiffnesses(kStiff, kShear, 0), Discretization::continuum, {1, 2},
                                 position.grid());
   TearingEffect tearing;
   tearing.warp = 2;
@@ -155,10 +155,10 @@ TEST(LinkLoads, AreTheTensionPerMetreOfAnEvenlyStretchedSheet) {
   each_node(position.grid(), [&](int r, int c) {
     const auto node = static_cast<std::size_t>(r * 9 + c);
     if (r + 1 < position.grid().rows) {
-      EXPECT_NEAR(loads.v[node] * 4, (kStructural + kShear) * kStretch, 2e-4 * kStretch * kStructural);
+      EXPECT_NEAR(loads.v[node] * 4, (kStiff + kShear) * kStretch, 2e-4 * kStretch * kStiff);
     }
     if (c + 1 < position.grid().cols) {
-      EXPECT_NEAR(loads.u[node] * 2, kShear * kStretch, 2e-4 * kStretch * kStructural);
+      EXPECT_NEAR(loads.u[node] * 2, kShear * kStretch, 2e-4 * kStretch * kStiff);
     }
   });
 }
