@@ -8,7 +8,7 @@
 namespace weft::host::test {
 namespace {
 
-constexpr int kSteps = 30;  // of the recording
+constexpr int kPlayed = 30;  // of the recording
 
 scene::Scene scene_of_sheet() {
   return std::get<scene::Scene>(scene::parse(R"({
@@ -53,7 +53,7 @@ struct WatchedPlay {
 
 class Play : public ::testing::Test {
  protected:
-  /// Records what a viewer does in kSteps steps, and the state after each.
+  /// Records what a viewer does in kPlayed steps, and the state after each.
   Play() {
     WatchedPlay was;
     std::string bytes;
@@ -75,7 +75,7 @@ class Play : public ::testing::Test {
     was.command(protocol::ClothPin{0, 0.5, 1});
     was.command(protocol::EffectTune{"paper_wind", {{"factor", {0.25}}}});
     was.command(protocol::BallRemove{1});
-    note(kSteps - 20);
+    note(kPlayed - 20);
     recorder->flush();
     recording_ = std::make_shared<const record::Recording>(record::Recording::of_text(std::move(bytes)));
   }
@@ -88,14 +88,14 @@ class Play : public ::testing::Test {
 
 TEST_F(Play, EachStepIsAsItWasRecorded) {
   WatchedPlay shown(playing());
-  for (std::size_t step = 1; step <= kSteps; ++step) {
+  for (std::size_t step = 1; step <= kPlayed; ++step) {
     shown.steps(1);
     // Commands that come before the next step are done already, but change nothing until it.
     if (step != 10 && step != 20) {
       ASSERT_EQ(shown.hash(), hashes_[step]) << step;
     }
   }
-  EXPECT_EQ(shown.reader.frames.back().stamp.frame, static_cast<std::uint32_t>(kSteps));
+  EXPECT_EQ(shown.reader.frames.back().stamp.frame, static_cast<std::uint32_t>(kPlayed));
 }
 
 TEST_F(Play, ViewersAreToldWhatWasCommanded) {
@@ -165,13 +165,13 @@ TEST_F(Play, CanBePausedSteppedAndSeenFromAnywhere) {
 
 TEST_F(Play, PausesAtItsEndAndBeginsAnewByReset) {
   WatchedPlay shown(playing(5));
-  shown.steps(kSteps - 5);
+  shown.steps(kPlayed - 5);
   EXPECT_TRUE(shown.live.paused());
   EXPECT_EQ(shown.events("pause"), 1);
   shown.command(protocol::Resume{});
   shown.steps(1);  // there is none left
   EXPECT_TRUE(shown.live.paused());
-  EXPECT_EQ(shown.hash(), hashes_[kSteps]);
+  EXPECT_EQ(shown.hash(), hashes_[kPlayed]);
 
   shown.command(protocol::Reset{});
   EXPECT_EQ(shown.hash(), hashes_[5]);
@@ -197,7 +197,7 @@ TEST_F(Play, TellsWhichEffectsAreOffWhereItBeginsAnew) {
 
 TEST_F(Play, LoopsIfItIsToldTo) {
   WatchedPlay shown(playing(5, true));
-  shown.steps(kSteps - 5);
+  shown.steps(kPlayed - 5);
   EXPECT_FALSE(shown.live.paused());
   EXPECT_EQ(shown.live.epoch(), 2u);
   EXPECT_EQ(shown.hash(), hashes_[5]);
