@@ -2,6 +2,7 @@
 /// What a cloth looks like: told to viewers, never to the simulation.
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace weft::scene {
 
@@ -16,11 +17,11 @@ struct Stripe {
 };
 
 struct Look {
-  const char* weave = "plain";  ///< one of read_look's
-  std::string colour;           ///< of the threads that run down the cloth, or of all of it; "#rrggbb", sRGB
-  std::string weft;             ///< of the threads that run across it
-  std::string back;             ///< of the other side; empty: as the weave gives it
-  double thread = 0;            ///< width of a thread, a stitch or a grain, m
+  std::string_view weave = "plain";  ///< one of read_look's
+  std::string colour;  ///< of the threads that run down the cloth, or of all of it; "#rrggbb", sRGB
+  std::string weft;    ///< of the threads that run across it
+  std::string back;    ///< of the other side; empty: as the weave gives it
+  double thread = 0;   ///< width of a thread, a stitch or a grain, m
   std::optional<Stripe> stripe;
   bool operator==(const Look&) const = default;
 };

@@ -47,7 +47,7 @@ Look nameless() {
   return {"plain", "#2c5894", "#4674b0", "", kWide, Stripe{"#f6ecd6", 14 * kWide, 64 * kWide, 3, false}};
 }
 
-Look look_of(const Default& from) { return {from.weave.data(), from.colour, from.weft, "", from.thread, {}}; }
+Look look_of(const Default& from) { return {from.weave, from.colour, from.weft, "", from.thread, {}}; }
 
 /// The name of the fabric that a material is of, or begins with; empty: none.
 std::string_view fabric_of(const json* material) {
@@ -110,9 +110,9 @@ Look read_look(const json* value, const std::string& path, Report& report, const
   Object object(*value, path, report);
   look.stripe.reset();
   const int weave = object.choice("weave", kWeaves);
-  if (weave >= 0 && std::string_view(look.weave) != kWeaves.begin()[weave])
+  if (weave >= 0 && look.weave != kWeaves.begin()[weave])
     look = look_of(*default_where(&Default::weave, kWeaves.begin()[weave]));
-  const bool two_tone = look.weave == std::string_view("twill");
+  const bool two_tone = look.weave == "twill";
   const bool coloured = read_colour(object, "colour", look.colour);
   if (!read_colour(object, "weft", look.weft) && coloured && !two_tone) look.weft = look.colour;
   read_colour(object, "back", look.back);

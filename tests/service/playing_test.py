@@ -38,7 +38,8 @@ class Playing(unittest.IsolatedAsyncioTestCase):
         await client.set_wind([1, 0, 0], 2.5)
         await client.next_frame(lambda frame: frame.stamp.f >= 40)
         await client.close()
-        server.end()
+        server.terminate()  # killed, it would not have written the last quarter of a second
+        server.process.wait()
         file = self.folder / "hung.weftrec"
         told = subprocess.run([BINARY, "replay", file], capture_output=True, text=True, timeout=GENEROUS).stdout
         return file, int(re.search(r", (\d+) steps", told)[1])
