@@ -14,11 +14,7 @@ using nlohmann::json;
 using protocol::Error;
 
 bool has_wind(const SimulationDescription& description) {
-  return std::any_of(description.effects.begin(), description.effects.end(),
-                     [](const EffectDescription& effect) {
-                       return std::holds_alternative<PaperWindEffect>(effect) ||
-                              std::holds_alternative<AerodynamicsEffect>(effect);
-                     });
+  return std::any_of(description.effects.begin(), description.effects.end(), feels_wind);
 }
 
 }  // namespace

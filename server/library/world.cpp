@@ -163,11 +163,7 @@ void World::look_from(const Vector& eye) {
 }
 
 void World::set_wind(const Vector& velocity) {
-  const auto feels_it = [](const EffectDescription& effect) {
-    return std::holds_alternative<PaperWindEffect>(effect) ||
-           std::holds_alternative<AerodynamicsEffect>(effect);
-  };
-  if (std::none_of(impl_->effects.begin(), impl_->effects.end(), feels_it)) {
+  if (std::none_of(impl_->effects.begin(), impl_->effects.end(), feels_wind)) {
     throw Error("no effect of the scene feels wind");
   }
   const Vec3 wanted{velocity[0], velocity[1], velocity[2]};

@@ -114,11 +114,6 @@ void check_sewn(const SimulationDescription& simulation, Report& report) {
   }
 }
 
-bool reads_wind(const EffectDescription& effect) {
-  return std::holds_alternative<PaperWindEffect>(effect) ||
-         std::holds_alternative<AerodynamicsEffect>(effect);
-}
-
 }  // namespace
 
 Result read_scene(const json& document, std::string_view name, const SceneFolder& folder,
@@ -145,7 +140,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
     check_sewn(simulation, report);
     if (const json* wind = object.find("wind")) {
       simulation.wind = read_wind(*wind, "/wind", report);
-      if (std::none_of(simulation.effects.begin(), simulation.effects.end(), reads_wind)) {
+      if (std::none_of(simulation.effects.begin(), simulation.effects.end(), feels_wind)) {
         report.add("/wind", "is read by no effect; list \"paper_wind\" or \"aerodynamics\" in /effects");
       }
     }

@@ -8,9 +8,9 @@ namespace weft {
 /// Sets that are joined step by step (disjoint-set forest, path halving: Tarjan and van Leeuwen, 1984).
 class DisjointSets {
  public:
-  /// Of one each.
+  /// Each of one member.
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  /// The one by which its island is known.
+  /// The one that stands for all of its set.
   std::size_t of(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

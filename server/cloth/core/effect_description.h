@@ -95,4 +95,10 @@ using EffectDescription =
     std::variant<GravityEffect, DampingEffect, PaperWindEffect, AerodynamicsEffect, StrainDampingEffect,
                  PlateBendingEffect, StrainLimitEffect, ClothContactEffect, InflationEffect, TearingEffect>;
 
+/// The scene's wind acts by this effect.
+inline bool feels_wind(const EffectDescription& effect) {
+  return std::holds_alternative<PaperWindEffect>(effect) ||
+         std::holds_alternative<AerodynamicsEffect>(effect);
+}
+
 }  // namespace weft

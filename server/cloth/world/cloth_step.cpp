@@ -143,8 +143,8 @@ Drive Cloth<Real>::drive(const Forces<Real>& forces, double dt) const {
 
 template <class Real>
 const VectorField<float>* Cloth<Real>::node_air(const Air& air, double time, double dt) {
-  const auto feels_wind = [](const auto& effect) { return effect->feels_wind(); };
-  if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_wind)) return nullptr;
+  const auto feels_it = [](const auto& effect) { return effect->feels_wind(); };
+  if (air.uniform() || std::none_of(effects_.begin(), effects_.end(), feels_it)) return nullptr;
   if (!node_air_) node_air_ = std::make_unique<NodeAir>();
   const Grid& grid = particles_.grid();
   return &node_air_->sample(air, particles_, cell(grid), time + dt / 2, dt / 2);

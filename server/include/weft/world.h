@@ -74,8 +74,8 @@ class World {
   double time() const;       ///< s, since the start
   /// Back to the start, with what was added, taken away or changed since undone.
   void reset();
-  /// At most so many threads work on a step from now on, 1 to 1024; results do not depend on it. Else as many
-  /// as the machine has.
+  /// At most so many threads work on steps from now on, 1 to 1024; results do not depend on it. Else as many
+  /// as the machine has. All worlds of a program share them: the smallest number given to any counts.
   void use_threads(int count);
 
   /// The cloths, in the scene's order. They stay while the world lives.
@@ -99,7 +99,7 @@ class World {
   void set_wind_zone(std::size_t zone, const Vector& velocity);
   /// The types of the effects that are simulated, as "gravity".
   std::vector<std::string> effects() const;
-  /// Simulates an effect of the scene no longer, or again, from the next step on.
+  /// Switches an effect of the scene off or on, from the next step on.
   void set_effect(std::string_view effect, bool on);
   /// Numbers of an effect, as set_parameter("aerodynamics", "drag", {1.1}).
   void set_parameter(std::string_view effect, std::string_view parameter, const std::vector<double>& values);
