@@ -86,6 +86,20 @@ test('connects with hello, and knows the welcome and the scene', async () => {
   assert.equal(server.sockets[0].protocol, 'weft.v1');
 });
 
+test('closed while its socket is made, it makes no connection', async () => {
+  const server = await serve();
+  const states = [];
+  const client = new WeftClient(server.url, { WebSocket, onstate: (state) => states.push(state) });
+  const opening = client.open();
+  client.close();
+  await assert.rejects(opening, { code: 'closed' });
+  const after = await join(server);
+  assert.equal(server.sockets.filter((socket) => socket.readyState === 1).length, 1);  // this one alone
+  assert.equal(client.connected, false);
+  assert.ok(!states.includes('open'), states.join());
+  after.close();
+});
+
 test('in Node the package ws is taken from where the client is installed', { skip: 'WebSocket' in globalThis && 'the platform has a WebSocket' }, async () => {
   const folder = mkdtempSync(path.join(tmpdir(), 'weft-client-'));
   open.push(async () => rmSync(folder, { recursive: true }));

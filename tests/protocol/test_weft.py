@@ -360,6 +360,30 @@ class Client(unittest.IsolatedAsyncioTestCase):
                 await request
             self.assertEqual(caught.exception.code, "closed")
 
+    async def test_it_comes_back_though_the_way_breaks_again_meanwhile(self):
+        cameras = []
+
+        def answer(message):
+            if message["op"] != "camera":
+                return {}
+            cameras.append(message)
+            if len(cameras) == 2:  # the first attempt to come back
+                server.socket.transport.abort()
+                return None
+            return {}
+
+        async with Server(answer, after_hello=frame_bytes("small")) as server, await weft.connect(server.url, reconnect=True) as scene:
+            await scene.camera(distance=3)
+            await scene.next_frame(timeout=LIMIT)
+            server.socket.transport.abort()
+
+            async def third():
+                while len(cameras) < 3:
+                    await asyncio.sleep(0.02)
+            await asyncio.wait_for(third(), LIMIT)
+            self.assertEqual([camera["distance"] for camera in cameras], [3, 3, 3])
+            await scene.next_frame(timeout=LIMIT)
+
     async def test_closing_says_1000_and_fails_open_requests(self):
         async with Server(lambda message: None) as server:
             scene = await weft.connect(server.url)

@@ -120,6 +120,7 @@ export class WeftView extends HTMLElement {
       const server = serverAddress(this.getAttribute('server'), new URL('..', import.meta.url));
       this.#player.open(server, scene, this.getAttribute('token'));
     } catch (error) {  // no WebGL, or an address that is none
+      this.#player?.close();
       this.#say(error.message);
       return;
     }

@@ -17,6 +17,8 @@ const make = (tag, members = {}, ...children) => {
 export class SplitPage {
   #panes = [];
   #timer = null;
+  #drawing = 0;  // the request for the next picture
+  #visit = 0;  // counts calls of enter()
   #following = false;
 
   /**
@@ -48,8 +50,9 @@ export class SplitPage {
     this.title.textContent = scene;
     document.title = `${scene} at several levels · Weft`;
     this.back.href = addressOfScene(new URL(location.href), scene);
+    const visit = ++this.#visit;
     const {scenes, locked} = await listScenes(this.settings.server, this.access.token);
-    if (!this.here || this.title.textContent !== scene) return;
+    if (!this.here || this.#visit !== visit) return;
     if (locked) {
       this.hud.askToken('This server asks for a token.', (given) => {
         this.access.token = given;
@@ -66,8 +69,9 @@ export class SplitPage {
     }
     this.title.textContent = scenes.find(({name}) => name === scene).title || scene;
     try {
-      this.#panes = held.map((each) => this.#pane(each));
-    } catch (error) {  // no WebGL
+      for (const each of held) this.#panes.push(this.#pane(each));
+    } catch (error) {  // no WebGL, or not for so many
+      this.leave();
       this.hud.showFailure(error);
       return;
     }
@@ -94,16 +98,15 @@ export class SplitPage {
     for (const {player, scene} of this.#panes) player.open(this.settings.server, scene, this.access.token);
     this.#timer = setInterval(() => this.#compare(), kTellMs);
     const draw = (nowMs) => {
-      if (this.#timer === null) return;
       for (const {player} of this.#panes) player.draw(nowMs);
-      requestAnimationFrame(draw);
+      this.#drawing = requestAnimationFrame(draw);
     };
-    requestAnimationFrame(draw);
+    this.#drawing = requestAnimationFrame(draw);
   }
 
   #rest() {
     clearInterval(this.#timer);
-    this.#timer = null;
+    cancelAnimationFrame(this.#drawing);
     for (const {player} of this.#panes) player.close();
   }
 

@@ -157,6 +157,11 @@ export class WeftClient extends Commands {
     if (this.#closed) throw new WeftError('closed', 'closed by this client');
     const { window: frames, client, token } = this.#options;
     const socket = await openSocket(this.#url, token, this.#options.WebSocket);
+    if (this.#closed) {  // while the socket was made
+      socket.onerror = () => {};  // what `ws` says of a connection that is not awaited
+      socket.close();
+      throw new WeftError('closed', 'closed by this client');
+    }
     this.#socket = socket;
     this.#before = this.scene ?? this.#before;
     this.welcome = this.scene = null;

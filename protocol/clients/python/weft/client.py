@@ -176,6 +176,7 @@ class Client(Commands):
         self._before = self.scene or self._before
         self.welcome, self.scene, self._lost, self._acks = {}, {}, None, False
         self._clock = ServerClock()
+        self._newest = None  # of the connection before
         self._greeted.clear()
         try:
             await asyncio.wait_for(self._greet(), self._timeout)
@@ -191,6 +192,8 @@ class Client(Commands):
         before, self._before = self._before, {}
         if self._held and before.get("seat") and before["name"] == self.scene["name"]:
             await self._resume(before["seat"])
+        if self._lost:  # broken again meanwhile
+            raise self._lost
 
     async def _greet(self) -> None:
         self._socket = await self._transport.open(self._url)
