@@ -1,5 +1,5 @@
 #pragma once
-/// The other end: a blocking client of PROTOCOL.md for the command line and for tests.
+/// The other end: a blocking client of PROTOCOL.md. For scenes SceneClient is the simpler one.
 #include <chrono>
 #include <cstdint>
 #include <filesystem>

@@ -32,8 +32,14 @@ json SceneClient::ask(const protocol::Command& command) {
     take(std::move(*message));
   }
   asked_ = 0;
-  if (answer_.at("op") == "error")
-    throw RefusedError(answer_.at("message"), answer_.at("code"), answer_.value("path", ""));
+  if (answer_.at("op") == "error") {
+    // A server that does not keep to the protocol may leave any of them out.
+    const auto text = [&](const char* name) {
+      const auto member = answer_.find(name);
+      return member != answer_.end() && member->is_string() ? member->get<std::string>() : std::string();
+    };
+    throw RefusedError(text("message"), text("code"), text("path"));
+  }
   return std::move(answer_);
 }
 
