@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,11 @@ int serve_recording(const ReplayOptions& options) {
   if (!recording->damage().empty())
     spdlog::warn("{}: {}: it is shown up to there", options.file, recording->damage());
   host::Host host(options.serving.limits, WEFT_VERSION);
-  host.play({recording, step_sought(options, recording->scene()), options.loop});
+  const std::uint64_t from = step_sought(options, recording->scene());
+  if (options.loop && from >= recording->steps())
+    throw std::invalid_argument("--loop: " + options.file + " has " + std::to_string(recording->steps()) +
+                                " steps, and none from --seek on to be shown again and again");
+  host.play({recording, from, options.loop});
   serve(host, options.serving);
   return 0;
 }

@@ -58,7 +58,7 @@ void LiveScene::play_step() {
   takes_effect_ = simulation_.step_count() + 1;
   if (replay.commands() != commands) {
     take_over_played();
-    if (simulation_.step_count() < step) begun_anew();  // it was reset
+    if (simulation_.step_count() <= step) begun_anew();  // it was reset after the step
     follow_played();
   }
   if (replay.divergence() && !std::exchange(divergence_warned_, true))

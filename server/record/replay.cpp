@@ -1,5 +1,6 @@
 #include "record/replay.h"
 
+#include "cloth/core/subnormals.h"
 #include "cloth/world/state.h"
 #include "cloth/world/state_hash.h"
 
@@ -11,6 +12,7 @@ Replay::Replay(const Recording& recording)
 }
 
 void Replay::do_what_is_due() {
+  const FlushedSubnormals flushed;  // as where scenes are served: the bits must be the same
   const auto& events = recording_.events();
   for (; next_ < events.size(); ++next_) {
     const Event& event = events[next_];
@@ -50,6 +52,7 @@ void Replay::diverged(std::uint64_t recorded, std::uint64_t found) {
 
 bool Replay::step() {
   if (at_end()) return false;
+  const FlushedSubnormals flushed;
   simulation_.step();
   anywhere_ = false;
   ++made_;

@@ -81,6 +81,13 @@ class Playing(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("--serve", done.stderr)
 
+    async def test_there_is_something_to_loop(self):
+        file, _ = await self.recorded()
+        done = subprocess.run([BINARY, "replay", file, "--serve", "--loop", "--seek", "3600", "--port", "0"],
+                              capture_output=True, text=True, timeout=GENEROUS)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"--loop: .* has \d+ steps, and none from --seek on")
+
 
 if __name__ == "__main__":
     unittest.main()

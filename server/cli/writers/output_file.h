@@ -24,8 +24,6 @@ class OutputFile {
   void write(std::string_view bytes);
   /// Replaces bytes already written, from `offset`; throws as write().
   void patch(std::streamoff offset, std::string_view bytes);
-  /// For a library that writes by itself; what fails is found by close().
-  std::ostream& stream() { return stream_; }
   /// Flushes, closes and puts the file in its place; throws std::runtime_error if anything since the start
   /// failed.
   void close();

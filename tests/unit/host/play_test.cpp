@@ -115,6 +115,32 @@ TEST_F(Play, ViewersAreToldWhatWasCommanded) {
   EXPECT_TRUE(shown.reader.frames.back().balls.empty());
 }
 
+TEST(PlayOfResets, EachBeginsAnEpoch) {
+  std::string bytes;
+  const auto recorder = std::make_shared<record::Recorder>(scene_of_sheet(), json::object(),
+                                                           [&](const std::string& more) { bytes += more; });
+  {
+    WatchedPlay was;
+    was.live.record({recorder});
+    for (const int steps : {1, 1, 5}) {
+      was.steps(steps);
+      was.command(protocol::Reset{});
+    }
+    was.steps(2);
+    recorder->flush();
+  }
+  WatchedPlay shown(
+      Playing{std::make_shared<const record::Recording>(record::Recording::of_text(std::move(bytes)))});
+  std::vector<std::uint32_t> epochs;
+  for (int step = 0; step < 9; ++step) {
+    shown.steps(1);
+    epochs.push_back(shown.live.epoch());
+  }
+  // A reset is done after the last step before it.
+  EXPECT_EQ(epochs, (std::vector<std::uint32_t>{2, 3, 3, 3, 3, 3, 4, 4, 4}));
+  EXPECT_EQ(shown.events("reset"), 3);
+}
+
 TEST_F(Play, WhoComesLateIsToldTheSame) {
   WatchedPlay shown(playing());
   shown.steps(22);

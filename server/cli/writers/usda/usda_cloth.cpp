@@ -46,7 +46,6 @@ std::string UsdaCloth::sample(int frame, const std::string& value) {
 
 void UsdaCloth::write(const MeshFrame& frame) {
   const bool first = first_.positions.empty();
-  if (!first && frame.frame <= last_.frame) return;  // time codes ascend
   if (first) first_ = frame;
   MeshFrame same = on_grid(frame, first_.rows, first_.cols);
   // Where a cloth is that goes far is its node's translation, which does not move.

@@ -54,6 +54,7 @@ class UsdaWriter final : public SceneWriter {
 
   void write(const SceneFrame& frame) override {
     const int number = frame.cloths.front().frame;
+    if (frames_ > 0 && number <= last_frame_) return;  // time codes ascend, and a reset begins anew
     if (frames_++ == 0) first_frame_ = number;
     last_frame_ = number;
     for (std::size_t i = 0; i < cloths_.size(); ++i) cloths_[i].write(frame.cloths[i]);
