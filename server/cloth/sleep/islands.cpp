@@ -1,6 +1,9 @@
 #include "cloth/sleep/islands.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "cloth/core/disjoint_sets.h"
 
 namespace weft {
 
