@@ -47,7 +47,10 @@ void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forc
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
   const double now = motion_energy(particles).beside_centre + stored(particles, forces);
-  account_ = {.drive = forces.drive, .most = now + height(particles, forces), .now = now};
+  account_ = {.drive = forces.drive,
+              .most = now + height(particles, forces),
+              .most_whole = forces.energy(particles),
+              .now = now};
 }
 
 template <class Real>
@@ -82,7 +85,13 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   account.owed *= liveliness_ * kept;
   const double most = kMostChange * motion.inner, most_owed = kMostOwed * account.motion;
   double change = std::clamp(account.owed, -most, most);
-  if (!wind) change = std::min(change, account.most - now - height(particles, forces));
+  const bool leans = touched && !is_held(particles);
+  if (!wind) {
+    const double room = leans ? account.most_whole - forces.energy(particles)
+                              : account.most - now - height(particles, forces);
+    change = std::min(change, room);
+  }
+  if (leans) account.most = now + change;
   account.owed = std::clamp(account.owed - change, -most_owed, most_owed);
   account.now = now + change;
   report.energy_lost = lost;

@@ -20,7 +20,9 @@ namespace weft {
 /// takes, so that all of it would overdrive the flapping.
 ///
 /// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
-/// own error, which is none of the inner motion's.
+/// own error, which is none of the inner motion's. Where such a cloth leans on something, that makes inner
+/// motion of its fall: a strip that slides off a rail, the sides of a drape. There it is all its energy, with
+/// height, that never grows.
 template <class Real>
 class EnergyLedger {
  public:
@@ -48,14 +50,17 @@ class EnergyLedger {
 
  private:
   struct Account {
-    Drive drive;        ///< wind or nothing
-    double most;        ///< J, that the cloth had when it was last driven, with height where it is held
+    Drive drive;  ///< wind or nothing
+    /// J, that the cloth had when it was last driven, with height where it is held; else since it last leant
+    /// on something.
+    double most;
+    double most_whole;  ///< J, all that it had when it was last driven, with its fall and height
     double owed = 0;    ///< J, that its motion lost before this step and did not get back
     double now;         ///< J, that it has as the step begins, without height
     double motion = 0;  ///< the inner motion's largest energy of late, J
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(drive, most, owed, now, motion);
+      archive(drive, most, most_whole, owed, now, motion);
     }
   };
   /// Of springs and plate, J.

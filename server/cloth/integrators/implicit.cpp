@@ -84,6 +84,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     memory_->ledger.count_work(particles, forces, state_->start,
                                forces.springs->damping_time() > 0 ? &state_->way : nullptr, h);
     const double kept = memory_->momentum.end_substep(particles, forces, solids, state_->start, contact,
+                                                      contacts.pushed_by_firm(),
                                                       second_order_ ? &memory_->second_order : nullptr, h);
     if (second_order_ && kept != 1) scale_motion(particles, kept, memory_->last_velocity);
     touched = touched || report.nodes_in_contact > 0 || !contacts.empty();

@@ -155,11 +155,11 @@ bool MomentumKeeper<Real>::all_by_bdf2(const std::vector<Solid>& solids,
 template <class Real>
 double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Forces<Real>& forces,
                                          const std::vector<Solid>& solids, const VectorField<Real>& start,
-                                         const Contact<Real>* contact, const Field<Real>* second_order,
-                                         double h) {
+                                         const Contact<Real>* contact, bool pushed,
+                                         const Field<Real>* second_order, double h) {
   if (!now_.known) return 1;
   const Touched touched = touched_by(solids, contact);
-  if (touched.firm) {
+  if (pushed || touched.firm) {
     restart();
     return 1;
   }

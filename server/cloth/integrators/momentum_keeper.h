@@ -23,10 +23,10 @@ class MomentumKeeper {
   void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
                      const std::vector<Solid>& solids);
   /// As it ends; the nodes have come from `start`. `second_order` tells, node by node, if it was stepped by
-  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. Returns by
-  /// what the inner motion was multiplied (scale_motion).
+  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. `pushed`:
+  /// what stands firm has pushed it. Returns by what the inner motion was multiplied (scale_motion).
   double end_substep(Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
-                     const VectorField<Real>& start, const Contact<Real>* contact,
+                     const VectorField<Real>& start, const Contact<Real>* contact, bool pushed,
                      const Field<Real>* second_order, double h);
   /// What was before says nothing about what follows.
   void restart() { now_ = before_ = {}; }

@@ -65,6 +65,11 @@ class ContactConstraints {
   /// After finish: what was held on its side of a body, or of what stands firm if it went less than half
   /// through it, or came off on that side; ordered.
   const std::vector<Touch>& kept_aside() const { return kept_aside_; }
+  /// After finish: something that stands firm pushed the cloth in the substep.
+  bool pushed_by_firm() const {
+    return std::any_of(constraints_.begin(), constraints_.end(),
+                       [](const Constraint& c) { return !c.body && c.force > 0; });
+  }
   void clear() {
     constraints_.clear();
     not_held_.clear();
