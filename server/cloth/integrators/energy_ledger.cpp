@@ -43,14 +43,15 @@ double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double m
 
 template <class Real>
 void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
-  work_ = 0;
+  work_ = work_whole_ = taken_ = 0;
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
   const double now = motion_energy(particles).beside_centre + stored(particles, forces);
   account_ = {.drive = forces.drive,
               .most = now + height(particles, forces),
               .most_whole = forces.energy(particles),
-              .now = now};
+              .now = now,
+              .now_whole = motion_energy(particles, true).inner + stored(particles, forces)};
 }
 
 template <class Real>
@@ -67,6 +68,7 @@ void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forc
   kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(start),
                                    Real(1), kernels::components(way_), grid.size());
   work_ += work_beside_centre(particles, force_, way_);
+  work_whole_ += work_beside_centre(particles, force_, way_, true);
 }
 
 template <class Real>
@@ -74,29 +76,33 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                     bool touched, AdvanceReport& report) {
   if (!account_) return 1;
   Account& account = *account_;
-  const MotionEnergy motion = motion_energy(particles);
-  const double now = motion.beside_centre + stored(particles, forces);
+  const bool torn = forces.springs->torn() != nullptr;
+  const bool leans = touched && !is_held(particles), held = touched || is_held(particles);
+  const MotionEnergy motion = motion_energy(particles, held);
+  const double springs = stored(particles, forces), now = motion.beside_centre + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
-  const double lost = touched ? 0 : account.now + work_ - now;
-  account.owed = touched ? 0 : account.owed + lost;
+  double lost = held ? account.now_whole + work_whole_ - taken_ - now : account.now + work_ - now;
+  if (torn) lost = account.owed = 0;
+  account.owed += lost;
   const bool wind = account.drive == Drive::wind;
   const double kept =
       account.owed > 0 ? kept_share(particles, account.motion, dt) * (wind ? kKeptInWind : 1) : 1;
   account.owed *= liveliness_ * kept;
   const double most = kMostChange * motion.inner, most_owed = kMostOwed * account.motion;
   double change = std::clamp(account.owed, -most, most);
-  const bool leans = touched && !is_held(particles);
   if (!wind) {
     const double room = leans ? account.most_whole - forces.energy(particles)
                               : account.most - now - height(particles, forces);
     change = std::min(change, room);
   }
-  if (leans) account.most = now + change;
   account.owed = std::clamp(account.owed - change, -most_owed, most_owed);
-  account.now = now + change;
   report.energy_lost = lost;
   report.energy_given_back = change;
-  return add_to_motion(particles, change);
+  const double scale = add_to_motion(particles, change, held);
+  account.now_whole = motion_energy(particles, true).inner + springs;
+  account.now = is_held(particles) ? account.now_whole : motion_energy(particles).beside_centre + springs;
+  if (leans) account.most = account.now;
+  return scale;
 }
 
 template class EnergyLedger<float>;

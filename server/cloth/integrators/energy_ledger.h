@@ -5,24 +5,24 @@
 
 namespace weft {
 
-/// Keeps the books of a cloth that nothing but wind drives (Forces::drive) and nothing touches: what its
-/// motion, springs and plate hold together changes by the work of the effects alone, but solves that are left
-/// unfinished, the formula and rounding take energy from it, or give some. What they took is given back to
-/// the motion and what they gave is taken from it, all of it scaled alike, so that momenta stay where nothing
-/// is held (after Dinev et al., FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects,
-/// 2018, who project each step; and Su, Sheth, Fedkiw, Energy Conservation for the Simulation of Deformable
-/// Bodies, 2013). Where a motion turns there is little to scale: what cannot be given then is owed.
+/// Keeps the books of a cloth that nothing but wind drives (Forces::drive): what its motion, springs and
+/// plate hold together changes by the work of the effects and by what contact with solids that stand takes,
+/// but solves that are left unfinished, the formula and rounding take energy from it, or give some. What they
+/// took is given back to the motion and what they gave is taken from it, all of it scaled alike, so that
+/// momenta stay where nothing is held (after Dinev et al., FEPR: Fast Energy Projection for Real-Time
+/// Simulation of Deformable Objects, 2018, who project each step; and Su, Sheth, Fedkiw, Energy Conservation
+/// for the Simulation of Deformable Bodies, 2013). Where a motion turns there is little to scale: what cannot
+/// be given then is owed.
 ///
 /// A motion as slow as what a solve leaves undone in a step gets nothing back, or errors alone would keep it
-/// going. Nor does a cloth that touches something, where contact takes energy that no work here stands for.
-/// Where not even wind drives it, it never has more than it had when it was last driven, contact or not. In
-/// wind half of what it loses is given back: folds lose most of it, and what they lose in earnest the drag
-/// takes, so that all of it would overdrive the flapping.
+/// going. Nor does a torn cloth, whose pieces do not move as one. Where not even wind drives it, it never has
+/// more than it had when it was last driven. In wind half of what it loses is given back: folds lose most of
+/// it, and what they lose in earnest the drag takes, so that all of it would overdrive the flapping.
 ///
 /// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
-/// own error, which is none of the inner motion's. Where such a cloth leans on something, that makes inner
-/// motion of its fall: a strip that slides off a rail, the sides of a drape. There it is all its energy, with
-/// height, that never grows.
+/// own error, which is none of the inner motion's. While such a cloth leans on something, that makes inner
+/// motion of its fall and takes up momentum, as held nodes do: a strip that slides off a rail, the sides of a
+/// drape. There all its energy counts, with height, and all its velocities are scaled.
 template <class Real>
 class EnergyLedger {
  public:
@@ -36,16 +36,20 @@ class EnergyLedger {
   /// are undamped), in h seconds.
   void count_work(const Particles<Real>& particles, const Forces<Real>& forces,
                   const VectorField<Real>& start, const VectorField<Real>* dampers, double h);
+  /// Whether it keeps any books in this step.
+  bool counts() const { return account_.has_value(); }
+  /// What contact took from the cloth in a substep, by impacts and friction, J.
+  void count_contact(double taken) { taken_ += taken; }
   /// After a step of `dt` seconds, in which something may have touched the cloth. Returns by what each
   /// velocity was multiplied: what else the integrator remembers of the motion it has to scale likewise
-  /// (scale_motion). Tells `report` what was lost and what given back.
+  /// (scale_motion), as if the cloth were held where it was touched. Tells `report` what was lost and what
+  /// given back.
   double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched,
                   AdvanceReport& report);
-
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(account_, work_);
+    archive(account_, work_, work_whole_, taken_);
   }
 
  private:
@@ -57,10 +61,11 @@ class EnergyLedger {
     double most_whole;  ///< J, all that it had when it was last driven, with its fall and height
     double owed = 0;    ///< J, that its motion lost before this step and did not get back
     double now;         ///< J, that it has as the step begins, without height
+    double now_whole;   ///< J, the same with all of its motion
     double motion = 0;  ///< the inner motion's largest energy of late, J
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(drive, most, most_whole, owed, now, motion);
+      archive(drive, most, most_whole, owed, now, now_whole, motion);
     }
   };
   /// Of springs and plate, J.
@@ -73,6 +78,8 @@ class EnergyLedger {
   double liveliness_;
   std::optional<Account> account_;  ///< nothing while something else drives the cloth
   double work_ = 0;                 ///< of the effects in this step, J
+  double work_whole_ = 0;           ///< the same with that on the centre of mass
+  double taken_ = 0;                ///< by contact in this step, J
   VectorField<Real> force_, way_;   ///< work space
 };
 

@@ -47,8 +47,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   state_->sound = true;
   memory_->ledger.begin_step(particles, forces);
   ContactConstraints<Real>& contacts = memory_->contacts;
-  // Scaled velocities would change the momentum of pieces that have come off.
-  bool touched = forces.springs->torn() != nullptr;
+  bool touched = false;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
     const Substep part = Substep::of(substep, parameters_.substeps, dt);
     const auto begin = Clock::now();
@@ -76,7 +75,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       contacts.keep_velocities(kernels::components(particles.velocity));
       contact->let_slide_off(contacts.not_held());
       contact->trust(contacts.kept_aside());
-      report.nodes_in_contact = contact->resolve(particles, solids, part, &state_->start);
+      resolve_contact(particles, *contact, solids, part, report);
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
@@ -92,7 +91,8 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   }
   const double scale = memory_->ledger.end_step(particles, forces, dt, touched, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
-  if (second_order_ && scale != 1) scale_motion(particles, scale, memory_->last_velocity);
+  if (second_order_ && scale != 1)
+    scale_motion(particles, scale, memory_->last_velocity, touched || is_held(particles));
   report.sound = state_->sound;
   return report;
 }
@@ -245,6 +245,18 @@ void Implicit<Real>::guess_move(double h) {
   s.system.bodies().reset();
   kernels::scaled_difference<Real>(kernels::components(s.start_velocity), s.move, static_cast<Real>(h),
                                    s.change, count);
+}
+
+template <class Real>
+void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& contact,
+                                     std::vector<Solid>& solids, const Substep& part, AdvanceReport& report) {
+  State& s = *state_;
+  EnergyLedger<Real>& ledger = memory_->ledger;
+  const double before = ledger.counts() ? motion_energy(particles, true).inner : 0;
+  report.nodes_in_contact = contact.resolve(particles, solids, part, &s.start);
+  if (!ledger.counts()) return;
+  ledger.count_contact(before - motion_energy(particles, true).inner +
+                       memory_->contacts.taken(s.move, s.system.bodies()));
 }
 
 template <class Real>

@@ -160,6 +160,9 @@ class Implicit final : public Integrator<Real> {
   /// Of the change as it is.
   ChangeReport model_change(const Forces<Real>& forces, double decrease) const;
   void scale_change(double share);
+  /// Puts right what the solve has left of contact, and tells the ledger what contact took.
+  void resolve_contact(Particles<Real>& particles, Contact<Real>& contact, std::vector<Solid>& solids,
+                       const Substep& part, AdvanceReport& report);
   void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
 
   const char* name_;

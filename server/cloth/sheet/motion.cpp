@@ -45,9 +45,10 @@ struct RigidMotion {
 
 /// The one with the momentum and angular momentum of nodes of these velocities; none where a node is held.
 template <class Real>
-RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<const Real> velocity) {
+RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<const Real> velocity,
+                         bool held) {
   RigidMotion motion;
-  if (is_held(particles)) return motion;
+  if (held) return motion;
   motion.still = false;
   double mass = 0;
   for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
@@ -117,9 +118,9 @@ bool is_held(const Particles<Real>& particles) {
 }
 
 template <class Real>
-MotionEnergy motion_energy(const Particles<Real>& particles) {
+MotionEnergy motion_energy(const Particles<Real>& particles, bool held) {
   const auto velocity = kernels::components(particles.velocity);
-  RigidMotion rigid = rigid_motion(particles, velocity);
+  RigidMotion rigid = rigid_motion(particles, velocity, held);
   const double inner = energy_beside(rigid, particles);
   if (rigid.still) return {inner, inner};
   rigid.spin.setZero();
@@ -128,9 +129,9 @@ MotionEnergy motion_energy(const Particles<Real>& particles) {
 
 template <class Real>
 double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
-                          const VectorField<Real>& way) {
+                          const VectorField<Real>& way, bool held) {
   const auto forces = kernels::components(force), ways = kernels::components(way);
-  if (is_held(particles)) return kernels::dot<Real>(forces, ways, particles.grid());
+  if (held) return kernels::dot<Real>(forces, ways, particles.grid());
   double work = 0, mass = 0;
   Vec3 sum(0, 0, 0), moved(0, 0, 0);
   for_each_free(particles, [&](std::size_t i, double m, const Vec3&) {
@@ -144,9 +145,10 @@ double work_beside_centre(const Particles<Real>& particles, const VectorField<Re
 }
 
 template <class Real>
-double add_to_motion(Particles<Real>& particles, double energy) {
+double add_to_motion(Particles<Real>& particles, double energy, bool held) {
   if (!(std::abs(energy) > 0)) return 1;
-  const RigidMotion rigid = rigid_motion(particles, kernels::components(std::as_const(particles.velocity)));
+  const RigidMotion rigid =
+      rigid_motion(particles, kernels::components(std::as_const(particles.velocity)), held);
   const double motion = energy_beside(rigid, particles);
   if (motion == 0) return 1;
   const double factor = std::sqrt(std::max(0.0, 1 + energy / motion));
@@ -155,29 +157,29 @@ double add_to_motion(Particles<Real>& particles, double energy) {
 }
 
 template <class Real>
-double take_from_motion(Particles<Real>& particles, double energy) {
-  return energy > 0 ? add_to_motion(particles, -energy) : 1;
+double take_from_motion(Particles<Real>& particles, double energy, bool held) {
+  return energy > 0 ? add_to_motion(particles, -energy, held) : 1;
 }
 
 template <class Real>
-void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity) {
-  scale_about(rigid_motion(particles, kernels::components(std::as_const(velocity))), particles, factor,
+void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity, bool held) {
+  scale_about(rigid_motion(particles, kernels::components(std::as_const(velocity)), held), particles, factor,
               velocity);
 }
 
 template bool is_held(const Particles<float>&);
 template bool is_held(const Particles<double>&);
-template MotionEnergy motion_energy(const Particles<float>&);
-template MotionEnergy motion_energy(const Particles<double>&);
+template MotionEnergy motion_energy(const Particles<float>&, bool);
+template MotionEnergy motion_energy(const Particles<double>&, bool);
 template double work_beside_centre(const Particles<float>&, const VectorField<float>&,
-                                   const VectorField<float>&);
+                                   const VectorField<float>&, bool);
 template double work_beside_centre(const Particles<double>&, const VectorField<double>&,
-                                   const VectorField<double>&);
-template double add_to_motion(Particles<float>&, double);
-template double add_to_motion(Particles<double>&, double);
-template double take_from_motion(Particles<float>&, double);
-template double take_from_motion(Particles<double>&, double);
-template void scale_motion(const Particles<float>&, double, VectorField<float>&);
-template void scale_motion(const Particles<double>&, double, VectorField<double>&);
+                                   const VectorField<double>&, bool);
+template double add_to_motion(Particles<float>&, double, bool);
+template double add_to_motion(Particles<double>&, double, bool);
+template double take_from_motion(Particles<float>&, double, bool);
+template double take_from_motion(Particles<double>&, double, bool);
+template void scale_motion(const Particles<float>&, double, VectorField<float>&, bool);
+template void scale_motion(const Particles<double>&, double, VectorField<double>&, bool);
 
 }  // namespace weft

@@ -3,7 +3,8 @@
 
 namespace weft {
 
-/// A node is.
+/// A node is. The functions below may be told that it is held, too, if it leans on what stands firm: that
+/// takes up momentum as a held node does.
 template <class Real>
 bool is_held(const Particles<Real>& particles);
 
@@ -13,26 +14,49 @@ struct MotionEnergy {
   double inner;          ///< without that of a rigid body with their momentum and angular momentum
 };
 template <class Real>
-MotionEnergy motion_energy(const Particles<Real>& particles);
+MotionEnergy motion_energy(const Particles<Real>& particles, bool held);
 
 /// Work of `force`, N, on free nodes that have gone `way`, m, in J; where no node is held without the work of
 /// the forces' sum on the centre of mass.
 template <class Real>
 double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
-                          const VectorField<Real>& way);
+                          const VectorField<Real>& way, bool held);
 
 /// Gives the motion of the free nodes so much energy, J, or takes it where that is below 0, as far as there
 /// is any: all velocities are scaled alike. Where no node is held it is their inner motion, so that momentum
 /// and angular momentum stay. Returns the scale, from 0; 1 where nothing moves so.
 template <class Real>
-double add_to_motion(Particles<Real>& particles, double energy);
+double add_to_motion(Particles<Real>& particles, double energy, bool held);
 
 /// The same for energy that is taken, but nothing is given.
 template <class Real>
-double take_from_motion(Particles<Real>& particles, double energy);
+double take_from_motion(Particles<Real>& particles, double energy, bool held);
 
 /// Scales `velocity`, m/s, of the free nodes in the same way: what an integrator remembers of the motion.
 template <class Real>
-void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity);
+void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity, bool held);
+
+/// The same by whether a node is held.
+template <class Real>
+MotionEnergy motion_energy(const Particles<Real>& particles) {
+  return motion_energy(particles, is_held(particles));
+}
+template <class Real>
+double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
+                          const VectorField<Real>& way) {
+  return work_beside_centre(particles, force, way, is_held(particles));
+}
+template <class Real>
+double add_to_motion(Particles<Real>& particles, double energy) {
+  return add_to_motion(particles, energy, is_held(particles));
+}
+template <class Real>
+double take_from_motion(Particles<Real>& particles, double energy) {
+  return take_from_motion(particles, energy, is_held(particles));
+}
+template <class Real>
+void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity) {
+  scale_motion(particles, factor, velocity, is_held(particles));
+}
 
 }  // namespace weft

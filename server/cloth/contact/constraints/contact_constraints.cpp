@@ -111,7 +111,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
                   holds,
                   slid,
                   slid,
-                  inner_radius(solid.shape)};
+                  inner_radius(solid.shape),
+                  -normal.dot(slip) / substep_.seconds};
   if (held) {
     made.last_force = same->force;
     made.force_before = same->last_force;
@@ -120,6 +121,11 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   if (made.has_stuck) {
     made.speeding_up = speeding_up(*same, slid, holds, point.mass());
     made.sliding += std::max(0.0, std::min(made.speeding_up, same->speeding_up));
+  }
+  if (held) {
+    made.gained_before = same->gained;
+    // Friction in proportion to the slip would grow with what it gains on the last one.
+    if (!made.has_stuck) made.sliding += std::max(0.0, std::min(same->gained, same->gained_before));
   }
   if (held && near_rest_) made.grip = across(same->grip, normal);
   if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();

@@ -65,6 +65,8 @@ class ContactConstraints {
   /// After finish: what was held on its side of a body, or of what stands firm if it went less than half
   /// through it, or came off on that side; ordered.
   const std::vector<Touch>& kept_aside() const { return kept_aside_; }
+  /// After finish: what impacts and friction took from the cloth in the substep, J.
+  double taken(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
   /// After finish: something that stands firm pushed the cloth in the substep.
   bool pushed_by_firm() const {
     return std::any_of(constraints_.begin(), constraints_.end(),
@@ -127,12 +129,15 @@ class ContactConstraints {
     double slid;                    ///< along the surface in the substep, if it goes on as before, m
     double sliding;                 ///< that is expected, m
     double width;                   ///< of the solid, its inner radius, m
+    double approach;                ///< to the solid, along the normal, as the substep begins, m/s
     double stiffness = 0;           ///< N/m
     double friction_stiffness = 0;  ///< N/m
     double force = 0;               ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
     double last_force = -1, force_before = -1;
     bool has_stuck = false;  ///< since it touches
+    /// By how much farther it slid in this step, and in the last one, than if it had gone on as it went, m.
+    double gained = 0, gained_before = 0;
     double speeding_up = 0;  ///< then: by how much more it will slide by what pulls at it, m
     bool released = false;
     bool pinched = false;  ///< held both ways: another solid keeps the node from leaving this one
@@ -141,8 +146,8 @@ class ContactConstraints {
     template <class Archive>
     void serialize(Archive& archive) {
       archive(touch, point, body, arm, normal, distance, led_out, solid_move, holds, slid, sliding, width,
-              stiffness, friction_stiffness, force, last_force, force_before, has_stuck, speeding_up,
-              released, pinched, grip);
+              approach, stiffness, friction_stiffness, force, last_force, force_before, has_stuck, gained,
+              gained_before, speeding_up, released, pinched, grip);
     }
     /// What friction goes by: the median of three steps' forces, the lesser of two, N.
     double usual_force() const;

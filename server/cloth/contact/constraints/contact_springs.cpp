@@ -122,6 +122,7 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
   for (Constraint& c : constraints_) {
     const Vec3 moved = move_of(c, move, bodies);
     const double depth = c.distance - c.normal.dot(moved);
+    c.gained = across(moved - c.solid_move, c.normal).norm() - c.slid;
     c.grip = friction(c, moved);
     c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
     if (c.body && c.force > 0) pressed_.push_back(c.touch);
@@ -133,6 +134,18 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
   }
   solids = bent(std::move(solids), bodies);
   return pressed_;
+}
+
+template <class Real>
+double ContactConstraints<Real>::taken(kernels::Components<const Real> move,
+                                       const AttachedBodies<Real>& bodies) const {
+  double energy = 0;
+  for (const Constraint& c : constraints_) {
+    const Vec3 slip = across(move_of(c, move, bodies) - c.solid_move, c.normal);
+    energy -= c.grip.dot(slip);
+    if (c.force > 0 && c.approach > 0) energy += c.point.mass() * c.approach * c.approach / 2;
+  }
+  return energy;
 }
 
 template <class Real>
@@ -170,6 +183,8 @@ template double ContactConstraints<float>::release_pulling(kernels::Components<c
 template const std::vector<Touch>& ContactConstraints<float>::finish(kernels::Components<const float>,
                                                                      const AttachedBodies<float>&,
                                                                      std::vector<Solid>&);
+template double ContactConstraints<float>::taken(kernels::Components<const float>,
+                                                 const AttachedBodies<float>&) const;
 template std::vector<Solid> ContactConstraints<float>::bent(std::vector<Solid>,
                                                             const AttachedBodies<float>&) const;
 template void ContactConstraints<float>::keep_velocities(kernels::Components<float>) const;
@@ -189,6 +204,8 @@ template double ContactConstraints<double>::release_pulling(kernels::Components<
 template const std::vector<Touch>& ContactConstraints<double>::finish(kernels::Components<const double>,
                                                                       const AttachedBodies<double>&,
                                                                       std::vector<Solid>&);
+template double ContactConstraints<double>::taken(kernels::Components<const double>,
+                                                  const AttachedBodies<double>&) const;
 template std::vector<Solid> ContactConstraints<double>::bent(std::vector<Solid>,
                                                              const AttachedBodies<double>&) const;
 template void ContactConstraints<double>::keep_velocities(kernels::Components<double>) const;
