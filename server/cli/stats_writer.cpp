@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kHeader =
     "frame,time,level,substeps,milliseconds,kinetic_energy,potential_energy,max_strain,max_"
-    "compression,mean_strain,nodes_in_contact,energy_lost,energy_given_back";
+    "compression,mean_strain,nodes_in_contact,energy_lost,energy_given_back,effects_work,contact_took";
 
 }  // namespace
 
@@ -40,6 +40,8 @@ void StatsWriter::write(int frame, const Simulation<float>& simulation) {
     const AdvanceReport& step = simulation.last_advance(cloth);
     field(step.energy_lost);
     field(step.energy_given_back);
+    field(step.effects_work);
+    field(step.contact_took);
     if (several_cloths_) line += "," + simulation.cloths()[cloth].description().name;
     file_.write(line + '\n');
   }

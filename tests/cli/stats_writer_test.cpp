@@ -37,10 +37,11 @@ TEST_F(StatsWriterTest, OneStepOfFreeFall) {
   writer.finish();
   const std::vector<Row> rows = rows_of(bytes("stats.csv"));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0], (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy",
-                          "potential_energy", "max_strain", "max_compression", "mean_strain",
-                          "nodes_in_contact", "energy_lost", "energy_given_back"}));
-  ASSERT_EQ(rows[1].size(), 13u);
+  EXPECT_EQ(rows[0],
+            (Row{"frame", "time", "level", "substeps", "milliseconds", "kinetic_energy", "potential_energy",
+                 "max_strain", "max_compression", "mean_strain", "nodes_in_contact", "energy_lost",
+                 "energy_given_back", "effects_work", "contact_took"}));
+  ASSERT_EQ(rows[1].size(), 15u);
   EXPECT_EQ(rows[1][0], "0");
   EXPECT_EQ(rows[1][1], "0");
   EXPECT_EQ(rows[1][2], "6");

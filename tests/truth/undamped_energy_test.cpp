@@ -256,6 +256,41 @@ TEST(EnergyLedger, TellsEachStepsChange) {
   EXPECT_GT(lost, 1e-4) << "J; the swing has 4 mJ";
 }
 
+// A sheet of 0.05 kg that slides down a slope: gravity does m g sin(a) on its way, friction takes mu m g
+// cos(a).
+TEST(EnergyLedger, TellsTheWorkOfGravityAndOfFriction) {
+  constexpr double kFriction = 0.3, kMass = 0.05, kGravity = 9.81;  // kg, m/s2
+  const double angle = 30 * std::numbers::pi / 180;
+  SimulationDescription scene;
+  ClothDescription sheet;
+  sheet.size = {0.5, 0.5};
+  sheet.min_level = sheet.initial_level = sheet.max_level = 3;
+  sheet.material.density = kMass / 0.25;
+  sheet.orientation = Quaternion(Eigen::AngleAxisd(angle, Vec3::UnitZ()) *
+                                 Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  scene.cloths = {sheet};
+  PlaneDescription slope;
+  slope.normal = {-std::sin(angle), std::cos(angle), 0};
+  ObstacleDescription ground;
+  ground.shape = slope;
+  ground.friction = kFriction;
+  scene.obstacles = {ground};
+  scene.effects = {GravityEffect{}};
+  Simulation<float> simulation(scene);
+  for (int step = 0; step < 10; ++step) simulation.step();  // until it lies on the slope
+  const Vec3 begin = simulation.centre(0);
+  double work = 0, took = 0;
+  for (int step = 0; step < 60; ++step) {
+    simulation.step();
+    work += simulation.last_advance(0).effects_work;
+    took += simulation.last_advance(0).contact_took;
+  }
+  const double way = (simulation.centre(0) - begin).norm(), weight = kMass * kGravity;
+  EXPECT_GT(way, 0.5) << "m";
+  EXPECT_NEAR(work, weight * std::sin(angle) * way, 0.01 * weight * way);
+  EXPECT_NEAR(took, kFriction * weight * std::cos(angle) * way, 0.03 * weight * way);
+}
+
 /// Ten minutes, or as much of them as takes about so many seconds of a processor.
 double as_long_as(double processor, int level, int steps_a_second, Method method) {
   // Seconds a substep, measured at level 4; nearly in proportion to the nodes.

@@ -81,7 +81,8 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const MotionEnergy motion = motion_energy(particles, held);
   const double springs = stored(particles, forces), now = motion.beside_centre + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
-  double lost = held ? account.now_whole + work_whole_ - taken_ - now : account.now + work_ - now;
+  const double work = held ? work_whole_ : work_;
+  double lost = (held ? account.now_whole : account.now) + work - taken_ - now;
   if (torn) lost = account.owed = 0;
   account.owed += lost;
   const bool wind = account.drive == Drive::wind;
@@ -96,6 +97,8 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
     change = std::min(change, room);
   }
   account.owed = std::clamp(account.owed - change, -most_owed, most_owed);
+  report.effects_work = work;
+  report.contact_took = taken_;
   report.energy_lost = lost;
   report.energy_given_back = change;
   const double scale = add_to_motion(particles, change, held);

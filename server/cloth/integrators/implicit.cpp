@@ -10,8 +10,8 @@
 namespace weft {
 namespace {
 
-/// Share of the tolerance for cloth that something touches, and torn cloth: nobody gives back what a solve
-/// takes from their motion (EnergyLedger).
+/// Share of the tolerance for cloth that something touches, and torn cloth: what a solve takes there from the
+/// motion along a surface the ledger gives back to all of the motion, or nobody does.
 constexpr double kTouched = 0.2;
 
 template <class Real>

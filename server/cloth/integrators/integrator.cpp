@@ -19,6 +19,8 @@ AdvanceReport& AdvanceReport::operator+=(const AdvanceReport& next) {
   check_seconds += next.check_seconds;
   energy_lost += next.energy_lost;
   energy_given_back += next.energy_given_back;
+  effects_work += next.effects_work;
+  contact_took += next.contact_took;
   sound = sound && next.sound;
   return *this;
 }

@@ -95,6 +95,9 @@ struct AdvanceReport {
   /// J, that formula and solves took from the cloth and what was given back to its motion (EnergyLedger), or
   /// below 0 the other way round; 0 where it was not counted.
   double energy_lost = 0, energy_given_back = 0;
+  /// J, that the effects, gravity among them, did on the cloth, and that contact took from it by impacts and
+  /// friction; of a cloth that nothing holds or touches beside its centre of mass. 0 where not counted.
+  double effects_work = 0, contact_took = 0;
   bool sound = true;  ///< false if no next state was found: the particles' is not to be used
 
   /// What this and the advance after it did together.
@@ -102,7 +105,8 @@ struct AdvanceReport {
   /// But for what the clock told (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(substeps, nodes_in_contact, linear_iterations, energy_lost, energy_given_back, sound);
+    archive(substeps, nodes_in_contact, linear_iterations, energy_lost, energy_given_back, effects_work,
+            contact_took, sound);
   }
 };
 

@@ -24,7 +24,7 @@ struct ImplicitParameters {
   /// springs of 1e7 N/m are stretched 1.75 times as far as a hard case allows.
   int linear_iterations = 200;
   /// Share, 0 to 1, of what a step's errors take from the motion or give it that is made good, where nothing
-  /// but wind drives the cloth and nothing touches it; in wind, of half of it (EnergyLedger).
+  /// but wind drives the cloth; in wind, of half of it (EnergyLedger).
   double liveliness = 1;
   bool operator==(const ImplicitParameters&) const = default;
 };
