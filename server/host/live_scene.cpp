@@ -328,7 +328,8 @@ void LiveScene::publish(std::uint32_t server_ms) {
   state_newer_ = false;
   encoder_.set_flags(flags());
   for (Seat& seat : seats_) {
-    if (frame_due_ || seat.wants_frame) seat.viewer->publish(seat.visit, encoder_.message(seat.levels));
+    if (frame_due_ || seat.wants_frame)
+      seat.viewer->publish(seat.visit, encoder_.message(seat.levels, seat.cone));
     seat.wants_frame = false;
   }
   frame_due_ = false;
