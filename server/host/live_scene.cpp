@@ -108,6 +108,15 @@ void LiveScene::look(Seat& seat, int steps) {
   }
 }
 
+std::vector<int> LiveScene::sent_levels(const Seat& seat) const {
+  std::vector<int> levels = seat.levels;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const int coarsest = std::min(levels[i], scene_.simulation.cloths[i].min_level);
+    levels[i] = std::max(coarsest, levels[i] - seat.link.coarser());
+  }
+  return levels;
+}
+
 bool LiveScene::sees(const Seat& seat, std::size_t cloth) const {
   const Relevance& relevance = scene_.simulation.cloths[cloth].relevance;
   if (relevance.unseen == Relevance::Unseen::step) return true;
@@ -329,7 +338,7 @@ void LiveScene::publish(std::uint32_t server_ms) {
   encoder_.set_flags(flags());
   for (Seat& seat : seats_) {
     if (frame_due_ || seat.wants_frame)
-      seat.viewer->publish(seat.visit, encoder_.message(seat.levels, seat.cone));
+      seat.viewer->publish(seat.visit, encoder_.message(sent_levels(seat), seat.cone));
     seat.wants_frame = false;
   }
   frame_due_ = false;
@@ -338,6 +347,7 @@ void LiveScene::publish(std::uint32_t server_ms) {
 void LiveScene::send_stats(double rate) {
   StatsState state;
   state.rate = rate;
+  state.slow = slow_;
   state.viewers = seats_.size();
   for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
     state.substeps.push_back(simulation_.report(i).substeps);
@@ -346,8 +356,14 @@ void LiveScene::send_stats(double rate) {
   }
   state.quality = quality_.stats_json();
   state.guard = guard_.stats_json();
-  for (const Seat& seat : seats_)
-    seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat)), "stats");
+  for (Seat& seat : seats_) {
+    int most = 0;  // levels that it may lose
+    for (std::size_t i = 0; i < seat.levels.size() && seat.viewer->takes_coarser(); ++i)
+      most = std::max(most, seat.levels[i] - scene_.simulation.cloths[i].min_level);
+    seat.link.passed(seat.viewer->flow(), most);
+    seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat, sent_levels(seat))),
+                      "stats");
+  }
 }
 
 std::vector<int> LiveScene::viewers_by_level() const {

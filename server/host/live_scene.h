@@ -163,6 +163,8 @@ class LiveScene {
   std::optional<protocol::Error> too_many_grabs() const;
   /// Which cloths the viewer sees, and Eq. 7 for each, from where it is; `steps`: 1 in one, else 0.
   void look(Seat& seat, int steps = 0);
+  /// What it is sent: what its distance asks for, or coarser, as its link carries it.
+  std::vector<int> sent_levels(const Seat& seat) const;
   /// True for all cloths for which the scene makes no difference.
   bool sees(const Seat& seat, std::size_t cloth) const;
   /// The viewer has not seen the cloth for kUnseenTime.

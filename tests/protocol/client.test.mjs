@@ -86,6 +86,12 @@ test('connects with hello, and knows the welcome and the scene', async () => {
   assert.equal(server.sockets[0].protocol, 'weft.v1');
 });
 
+test('asks for coarser levels only if told to', async () => {
+  const server = await serve();
+  await join(server, { coarser: true, window: 0 });
+  assert.deepEqual(await server.expect('hello'), { op: 'hello', id: 1, caps: ['flow.level'] });
+});
+
 test('closed while its socket is made, it makes no connection', async () => {
   const server = await serve();
   const states = [];

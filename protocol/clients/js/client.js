@@ -155,7 +155,8 @@ export class WeftClient extends Commands {
   /** One attempt to connect: done when the server has greeted, sent the scene, and answered `hello`. */
   async #attempt() {
     if (this.#closed) throw new WeftError('closed', 'closed by this client');
-    const { window: frames, client, token } = this.#options;
+    const { window: frames, client, coarser, token } = this.#options;
+    const caps = [...(frames ? ['flow.ack'] : []), ...(coarser ? ['flow.level'] : [])];
     const socket = await openSocket(this.#url, token, this.#options.WebSocket);
     if (this.#closed) {  // while the socket was made
       socket.onerror = () => {};  // what `ws` says of a connection that is not awaited
@@ -170,7 +171,7 @@ export class WeftClient extends Commands {
     this.#clock = new ServerClock();
     try {
       await this.#greeted(socket);
-      if (frames || client) await this.send('hello', { client, caps: frames ? ['flow.ack'] : [], window: frames || undefined });
+      if (caps.length > 0 || client) await this.send('hello', { client, caps, window: frames || undefined });
       // A camera refused then is refused now; the connection is good all the same.
       if (this.#camera) await super.camera(this.#camera).catch(() => {});
       const before = this.#before;

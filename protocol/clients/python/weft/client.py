@@ -23,7 +23,7 @@ from .types import Frame, Message
 OnMessage = typing.Callable[[Message], None]
 
 
-async def connect(url: str, *, client: str | None = None, window: int = 2, timeout: float = 5.0,
+async def connect(url: str, *, client: str | None = None, window: int = 2, coarser: bool = False, timeout: float = 5.0,
                   on_message: OnMessage | None = None, token: str | None = None, tls: ssl.SSLContext | None = None,
                   reconnect: bool = False) -> Client:
     """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME or wss://: done when the server has greeted, described the scene,
@@ -32,6 +32,7 @@ async def connect(url: str, *, client: str | None = None, window: int = 2, timeo
     client      name told to the server
     window      unacknowledged frames, 1..8, beside those that the way has room for; 0: no flow control, the server sends as
                 fast as it can
+    coarser     cloths may be sent at coarser levels than the camera asks for, where the link carries too few frames
     timeout     s to wait for the connection, and for each reply
     on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `curve`,
                 `notice`, `error`
@@ -41,7 +42,8 @@ async def connect(url: str, *, client: str | None = None, window: int = 2, timeo
                 the same camera, with what this client held if that is within 5 s. Frames go on; what is sent meanwhile fails
                 with code `closed`
     """
-    hello = {"client": client, "caps": ["flow.ack"] if window else [], "window": window or None} if window or client else None
+    caps = (["flow.ack"] if window else []) + (["flow.level"] if coarser else [])
+    hello = {"client": client, "caps": caps, "window": window or None} if caps or client else None
     connection = Client(url, timeout, on_message, Transport(token, tls), hello, reconnect)
     try:
         await connection._open()
