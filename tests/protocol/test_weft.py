@@ -364,6 +364,38 @@ class Client(unittest.IsolatedAsyncioTestCase):
                 await request
             self.assertEqual(caught.exception.code, "closed")
 
+    async def test_a_way_that_breaks_while_it_takes_over_what_it_held_loses_nothing(self):
+        seats, resumed = ["a" * 32, "b" * 32, "c" * 32], []
+
+        class Breaking(Server):
+            connections = 0
+
+            async def handle(self, socket):
+                self.socket, seat = socket, seats[self.connections]
+                self.connections += 1
+                await socket.send(json.dumps(WELCOME))
+                await socket.send(json.dumps({**SCENE, "seat": seat}))
+                with contextlib.suppress(websockets.ConnectionClosed):
+                    async for text in socket:
+                        await self.receive(socket, json.loads(text))
+
+        def answer(message):
+            if message["op"] == "seat.resume":
+                resumed.append(message["seat"])
+                if server.connections == 2:
+                    server.socket.transport.abort()
+                return {"grabs": [7] if message["seat"] == seats[0] else []}
+            return {"grab": 7} if message["op"] == "cloth.grab" else {}
+
+        async with Breaking(answer) as server, await weft.connect(server.url, reconnect=True) as scene:
+            await scene.grab(0, 0.5, 0.5)
+            server.socket.transport.abort()
+            end = asyncio.get_running_loop().time() + LIMIT
+            while len(resumed) < 3:
+                self.assertLess(asyncio.get_running_loop().time(), end, resumed)
+                await asyncio.sleep(0.02)
+            self.assertEqual(resumed, [seats[0], seats[0], seats[1]])
+
     async def test_it_comes_back_though_the_way_breaks_again_meanwhile(self):
         cameras = []
 
