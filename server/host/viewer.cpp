@@ -12,6 +12,8 @@ constexpr double kFrameRate = 60;
 constexpr int kMostMore = 60;
 /// An acknowledgement later than the way takes by more than this is of a frame that has queued.
 constexpr Viewer::Seconds kQueued{0.1};
+/// What a viewer may take over a frame without being slow.
+constexpr Viewer::Seconds kAtOnce{0.02};
 /// Of one acknowledgement in what they take.
 constexpr double kWeightOfOne = 0.25;
 
@@ -144,7 +146,7 @@ Viewer::Flow Viewer::flow(TimePoint now) {
   Flow flow = std::exchange(flow_, {});
   // A ping waits behind one frame at least where two are on a slow link.
   const Seconds waiting = outstanding_.empty() ? Seconds(0) : now - outstanding_.front().when;
-  flow.at_client = window_ > 0 && std::max(taken_, waiting) > 2 * way_.at_present(now) + kQueued;
+  flow.at_client = window_ > 0 && std::max(taken_, waiting) > 2 * way_.at_present(now) + kAtOnce;
   return flow;
 }
 

@@ -6,15 +6,15 @@
 namespace weft::host {
 namespace {
 
-constexpr std::size_t kKept = 10;
-constexpr std::ptrdiff_t kPresent = 3;
+constexpr std::size_t kWaysKept = 10;
+constexpr std::ptrdiff_t kWaysAtPresent = 3;
 
 }  // namespace
 
 void Way::answered(TimePoint now) {
   if (!asked_) return;
   late_.emplace_back(now - *std::exchange(asked_, std::nullopt));
-  if (late_.size() > kKept) late_.pop_front();
+  if (late_.size() > kWaysKept) late_.pop_front();
 }
 
 Way::Seconds Way::shortest() const {
@@ -23,7 +23,7 @@ Way::Seconds Way::shortest() const {
 
 Way::Seconds Way::at_present(TimePoint now) const {
   Seconds longest = asked_ ? Seconds(now - *asked_) : Seconds(0);
-  const auto first = late_.end() - std::min(kPresent, std::ssize(late_));
+  const auto first = late_.end() - std::min(kWaysAtPresent, std::ssize(late_));
   for (auto each = first; each != late_.end(); ++each) longest = std::max(longest, *each);
   return longest;
 }

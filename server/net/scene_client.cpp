@@ -24,13 +24,13 @@ constexpr double kFirstWait = 0.25, kLongestWait = 10;  // s
 constexpr std::size_t kMostSeats = 8;
 
 /// A server that does not keep to the protocol may leave any of them out.
-std::string text_of(const json& message, const char* name) {
+std::string member_text(const json& message, const char* name) {
   const auto member = message.find(name);
   return member != message.end() && member->is_string() ? member->get<std::string>() : std::string();
 }
 
 RefusedError refusal(const json& error) {
-  return {text_of(error, "message"), text_of(error, "code"), text_of(error, "path")};
+  return {member_text(error, "message"), member_text(error, "code"), member_text(error, "path")};
 }
 
 /// The URL of another scene of the same server: its target ends with the scene's name.
@@ -181,7 +181,7 @@ void SceneClient::restore() {
   }
   std::vector<std::uint32_t> grabs;
   for (const Seat& seat : seats_) {
-    if (seat.scene != text_of(scene_, "name")) continue;
+    if (seat.scene != member_text(scene_, "name")) continue;
     try {
       grabs = await(post(protocol::SeatResume{seat.token})).at("grabs").get<std::vector<std::uint32_t>>();
     } catch (const RefusedError&) {  // too late: all is released
@@ -198,11 +198,11 @@ void SceneClient::restore() {
 
 void SceneClient::lose() {
   // One that breaks before it has taken over what an older one held is only the next to be asked for.
-  const std::string token = text_of(scene_, "seat");
+  const std::string token = member_text(scene_, "seat");
   if (held_.empty()) {
     seats_.clear();
   } else if (!token.empty()) {
-    seats_.push_back({text_of(scene_, "name"), token});
+    seats_.push_back({member_text(scene_, "name"), token});
     if (seats_.size() > kMostSeats) seats_.erase(seats_.begin());
   }
   client_.reset();
@@ -233,9 +233,9 @@ void SceneClient::take_control(std::string_view text) {
   if (!message.is_object() || !message.contains("op")) {
     throw std::runtime_error("not a message of the protocol: " + std::string(text.substr(0, kShownBytes)));
   }
-  const std::string op = text_of(message, "op");
+  const std::string op = member_text(message, "op");
   if (op == "scene") scene_ = message;
-  if (op == "event" && text_of(message, "kind") == "reset") held_.clear();
+  if (op == "event" && member_text(message, "kind") == "reset") held_.clear();
   if (op == "ok" || op == "error" || op == "pong") take_answer(message);
   if (options_.on_message) options_.on_message(message, text);
 }
