@@ -6,7 +6,10 @@ namespace weft::host {
 
 void LinkKeeper::passed(const Viewer::Flow& flow, int most) {
   coarser_ = std::min(coarser_, most);
-  if (flow.published < kLeastFrames) return;
+  if (flow.published < kLeastFrames) {
+    limit_ = Limit::nothing;
+    return;
+  }
   const double left_out = double(flow.dropped) / flow.published;
   limit_ = left_out <= kFewLeftOut ? Limit::nothing : flow.at_client ? Limit::client : Limit::link;
   ++since_;

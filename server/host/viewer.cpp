@@ -7,7 +7,7 @@ namespace weft::host {
 namespace {
 
 /// As many frames a second are sent at most.
-constexpr double kFrameRate = 60;
+constexpr double kMostASecond = 60;
 /// Frames on the way at most beside those that a viewer asks for: of a second.
 constexpr int kMostMore = 60;
 /// An acknowledgement later than the way takes by more than this is of a frame that has queued.
@@ -111,7 +111,7 @@ bool Viewer::acknowledge(std::uint32_t frame, TimePoint now) {
   // One at a time, up as down: what is sent now is told of a round trip later.
   const Seconds taken = now - found->when;
   const bool queued = taken > way_.shortest() + kQueued;
-  const int room = std::min(kMostMore, static_cast<int>(way_.shortest().count() * kFrameRate));
+  const int room = std::min(kMostMore, static_cast<int>(way_.shortest().count() * kMostASecond));
   more_ = queued ? std::max(0, more_ - 1) : std::min(room, more_ + 1);
   taken_ += kWeightOfOne * (taken - taken_);
   outstanding_.erase(outstanding_.begin(), found.base());

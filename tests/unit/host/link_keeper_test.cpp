@@ -90,7 +90,10 @@ TEST_F(Link, ASlowViewerIsNotTheLinksFault) {
 }
 
 TEST_F(Link, AFewFramesSayNothing) {
+  run(10, 1);
+  EXPECT_EQ(keeper.limit(), Limit::link);
   for (int i = 0; i < 20; ++i) keeper.passed({LinkKeeper::kLeastFrames - 1, 7, false}, 2);
+  EXPECT_EQ(keeper.limit(), Limit::nothing);
   EXPECT_EQ(keeper.coarser(), 0);
 }
 
