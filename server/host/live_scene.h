@@ -89,6 +89,7 @@ class LiveScene {
   SceneMetrics::Guard guard_counts() const { return guard_.counts(); }
   /// How many viewers have their finest cloth at each level, from 0.
   std::vector<int> viewers_by_level() const;
+  SceneMetrics::Limited limited_viewers() const;
   bool empty() const { return seats_.empty(); }
 
   /// All that is not its simulation's and lasts when its viewers have gone, written down.

@@ -79,6 +79,15 @@ std::vector<int> LiveScene::viewers_by_level() const {
   return viewers;
 }
 
+SceneMetrics::Limited LiveScene::limited_viewers() const {
+  SceneMetrics::Limited limited;
+  for (const Seat& seat : seats_) {
+    limited.by_link += seat.link.limit() == LinkKeeper::Limit::link;
+    limited.by_client += seat.link.limit() == LinkKeeper::Limit::client;
+  }
+  return limited;
+}
+
 void LiveScene::set_paused(bool paused) {
   if (paused_ == paused) return;
   paused_ = paused;

@@ -144,6 +144,7 @@ class Links(unittest.IsolatedAsyncioTestCase):
             way.rate = 50_000
             stats = await self.until_stats(client, lambda stats: "coarser" in stats)
             self.assertEqual(stats["limit"], "link")
+            self.assertIn(b'weft_limited_viewers{by="link",scene="hung"} 1', self.server.get("/metrics")[2])
             stats = await self.until_stats(client, lambda stats: stats.get("coarser") == 2)
             frame = await client.next_frame(lambda frame: frame.cloths[0].level == 4)
             self.assertEqual(frame.cloths[0].simulated_level, 6)
