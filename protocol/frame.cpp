@@ -249,10 +249,11 @@ class Reader {
 }  // namespace
 
 std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
-                                              int simulated_level, int bits, const GridView& grid) {
+                                              int simulated_level, int bits, const GridView& grid,
+                                              int min_exponent) {
   auto record = header(stamp, kClothRecord, kGridCodec, static_cast<std::size_t>(grid.cols),
                        static_cast<std::size_t>(grid.rows));
-  const Quantisation quantisation = choose_quantisation(grid, bits);
+  const Quantisation quantisation = choose_quantisation(grid, bits, min_exponent);
   put(record.data(), kBitsAt, static_cast<std::uint8_t>(bits));
   put(record.data(), kClothAt, cloth);
   put(record.data(), kLevelAt, static_cast<std::uint8_t>(level));

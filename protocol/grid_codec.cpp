@@ -15,8 +15,6 @@ static_assert(std::endian::native == std::endian::little,
 constexpr int kGroup = 16;  ///< values that share a width
 /// Residuals of 16-bit values lie within +-131070, so zig-zagged below 2^18.
 constexpr int kMaxWidth = 18;
-/// 60 nm: finer says nothing about a cloth, and far finer would leave the normal floats.
-constexpr int kMinQuantumExponent = -24;
 constexpr std::size_t kSlack = 8;  ///< whole words are loaded and stored, up to this far beyond the last bit
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -122,17 +120,22 @@ void residuals(const GridView& grid, std::size_t axis, const Quantisation& quant
 
 }  // namespace
 
-Quantisation choose_quantisation(const GridView& grid, int bits) {
-  std::array<double, 3> low{}, high{};
-  double extent = 0;
+GridBox box_of(const GridView& grid) {
+  GridBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Interval box = interval_of(grid, axis);
-    low[axis] = grid.place[axis] + double(box.low);
-    high[axis] = grid.place[axis] + double(box.high);
-    extent = std::max(extent, high[axis] - low[axis]);
+    const Interval interval = interval_of(grid, axis);
+    box.low[axis] = grid.place[axis] + double(interval.low);
+    box.high[axis] = grid.place[axis] + double(interval.high);
   }
+  return box;
+}
+
+Quantisation choose_quantisation(const GridView& grid, int bits, int min_exponent) {
+  const auto [low, high] = box_of(grid);
+  double extent = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, high[axis] - low[axis]);
   const double top = double((1 << bits) - 1);
-  int exponent = kMinQuantumExponent;
+  int exponent = min_exponent;
   if (extent > 0) exponent = std::max(exponent, std::ilogb(extent / top));
   // A quantum of at least extent / top is needed, one more when the grid does not start on the lattice.
   for (;; ++exponent) {

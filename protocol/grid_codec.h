@@ -32,10 +32,18 @@ struct Quantisation {
   }
 };
 
-/// The finest lattice of `bits` that covers the grid, its quantum at least 2^-24 m. Where two frames get the
-/// same quantum, a node that stands still decodes to the same position in both, whatever the rest of the
-/// cloth does.
-Quantisation choose_quantisation(const GridView& grid, int bits);
+inline constexpr int kMinQuantumExponent = -24;  ///< 60 nm: finer says nothing about a cloth
+
+/// The box that just holds the grid: its least and greatest coordinates, m.
+struct GridBox {
+  std::array<double, 3> low{}, high{};
+};
+GridBox box_of(const GridView& grid);
+
+/// The finest lattice of `bits` that covers the grid and whose quantum is at least 2^`min_exponent` m. Where
+/// two frames get the same quantum, a node that stands still decodes to the same position in both, whatever
+/// the rest of the cloth does.
+Quantisation choose_quantisation(const GridView& grid, int bits, int min_exponent = kMinQuantumExponent);
 
 /// Appends the payload of codec 1 to `out`.
 void encode_grid(const GridView& grid, const Quantisation& quantisation, std::vector<std::uint8_t>& out);

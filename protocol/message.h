@@ -14,7 +14,7 @@
 namespace weft::protocol {
 
 inline constexpr const char* kSubprotocol = "weft.v1";
-inline constexpr std::array<const char*, 1> kCapabilities{"flow.ack"};
+inline constexpr std::array<const char*, 2> kCapabilities{"flow.ack", "flow.level"};
 
 /// Section 6, with its defaults.
 struct Limits {

@@ -40,7 +40,7 @@ struct ClientOptions {
   std::vector<std::string> outputs;
   std::string script;
   net::ClientSecurity security;
-  bool quiet = false, health = false;
+  bool quiet = false, health = false, reconnect = false;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -82,6 +82,7 @@ class Conversation {
         script_(options.script.empty() ? std::vector<Timed>{} : read_script(options.script)),
         client_(url, {.limit = kConnectTime,
                       .security = options.security,
+                      .reconnect = options.reconnect,
                       .on_message = [this](const json& message, std::string_view text) {
                         take_control(message, text);
                       }}) {}
@@ -98,7 +99,7 @@ class Conversation {
     }
     try {
       while (!finished()) {
-        send_due();
+        if (client_.connected()) send_due();
         if (const auto received = client_.next_frame(next_event())) take_frame(*received);
       }
       client_.close();
@@ -278,6 +279,8 @@ void add_client(CLI::App& app, int& exit_code) {
       ->add_option("--ca", options->security.authorities,
                    "Certificates (PEM) to trust with wss: and https: (default: the system's)")
       ->check(CLI::ExistingFile);
+  command->add_flag("--reconnect", options->reconnect,
+                    "Comes back when the connection breaks, to what it held as well");
   command->add_flag("--quiet", options->quiet, "Prints errors only");
   command->add_flag("--health", options->health, "Only asks whether the server is well (exit code 0: yes)");
   command->callback([options, &exit_code] { exit_code = client(*options); });

@@ -66,10 +66,12 @@ bool Connection::may_give(const Request& request) {
 
 void Connection::answer(const Request& request, const protocol::Hello& hello) {
   json common = json::array();
-  for (const char* known : protocol::kCapabilities) {
-    if (std::find(hello.caps.begin(), hello.caps.end(), known) != hello.caps.end()) common.push_back(known);
+  for (const std::string_view known : protocol::kCapabilities) {
+    if (std::find(hello.caps.begin(), hello.caps.end(), known) == hello.caps.end()) continue;
+    common.push_back(known);
+    if (known == "flow.ack") viewer_->enable_acks(hello.window);
+    if (known == "flow.level") viewer_->enable_levels();
   }
-  if (!common.empty()) viewer_->enable_acks(hello.window);
   ok(request, {{"caps", common}});
 }
 

@@ -1,7 +1,10 @@
 #include "host/frame_encoder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "host/picture.h"
 
 namespace weft::host {
 namespace {
@@ -58,6 +61,10 @@ void FrameEncoder::capture(const Simulation<float>& simulation, const protocol::
     cloths_[i].level = simulation.cloths()[i].level();
     cloths_[i].place = simulation.cloths()[i].particles().place;
     cloths_[i].position = simulation.cloths()[i].particles().position;
+    const ClothDescription& description = simulation.cloths()[i].description();
+    const BaseCells& base = description.base_cells;
+    cloths_[i].cell = std::min(description.size.x() / base.cols, description.size.y() / base.rows);
+    cloths_[i].box.setEmpty();
     cloths_[i].walls.reset();
     if (const Walls* walls = simulation.cloths()[i].walls()) cloths_[i].walls = *walls;
   }
@@ -71,27 +78,42 @@ void FrameEncoder::set_flags(std::uint16_t flags) {
   forget_encodings();
 }
 
-std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>& levels) {
-  auto& message = messages_[levels];
+std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>& levels,
+                                                          const std::optional<ViewCone>& picture) {
+  std::vector<Encoding> encodings;
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    encodings.push_back(encoding(i, std::min(levels[i], cloths_[i].level), picture));
+  auto& message = messages_[encodings];
   if (message) return message;
   auto made = std::make_shared<FrameMessage>();
   made->frame = stamp_.frame;
   made->epoch = stamp_.epoch;
-  for (std::size_t i = 0; i < cloths_.size(); ++i) {
-    made->records.push_back(cloth_record(i, std::min(levels[i], cloths_[i].level)));
-  }
+  for (std::size_t i = 0; i < cloths_.size(); ++i) made->records.push_back(cloth_record(i, encodings[i]));
   made->records.insert(made->records.end(), list_records().begin(), list_records().end());
   message = std::move(made);
   return message;
 }
 
-const Record& FrameEncoder::cloth_record(std::size_t cloth, int level) {
+FrameEncoder::Encoding FrameEncoder::encoding(std::size_t cloth, int level,
+                                              const std::optional<ViewCone>& picture) {
+  if (!picture) return {level, protocol::kMinQuantumExponent};
   ShownCloth& shown = cloths_[cloth];
-  Record& record = shown.records[level];
+  if (shown.box.isEmpty()) {
+    const auto [low, high] =
+        protocol::box_of(coarsened(shown.position, shown.place, shown.level, shown.level));
+    shown.box = {Vec3(low[0], low[1], low[2]), Vec3(high[0], high[1], high[2])};
+  }
+  return {level, exponent_for_picture(*picture, shown.box, std::ldexp(shown.cell, -level))};
+}
+
+const Record& FrameEncoder::cloth_record(std::size_t cloth, const Encoding& encoding) {
+  const auto [level, exponent] = encoding;
+  ShownCloth& shown = cloths_[cloth];
+  Record& record = shown.records[encoding];
   if (record) return record;
   const auto index = static_cast<std::uint32_t>(cloth);
   const protocol::GridView grid = coarsened(shown.position, shown.place, shown.level, level);
-  auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid);
+  auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid, exponent);
   std::size_t last = 0;  // where the last of the two begins
   const auto torn = shown.walls ? shown.walls->at(level).torn_faces() : std::vector<std::uint32_t>{};
   if (!torn.empty()) {

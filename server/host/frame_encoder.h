@@ -1,10 +1,13 @@
 #pragma once
-/// The state that viewers are shown, and its encodings: one a cloth and level, whoever asks.
+/// The state that viewers are shown, and its encodings: one a cloth, level and lattice, whoever asks.
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "cloth/levels/view_cone.h"
 #include "cloth/world/simulation.h"
 #include "host/viewer.h"
 #include "protocol/frame.h"
@@ -28,21 +31,30 @@ class FrameEncoder {
 
   /// Level at which `cloth` was simulated.
   int simulated_level(std::size_t cloth) const { return cloths_[cloth].level; }
-  /// The state with cloth i at levels[i], or at its simulated level if that is coarser.
-  std::shared_ptr<const FrameMessage> message(const std::vector<int>& levels);
+  /// The state with cloth i at levels[i], or at its simulated level if that is coarser. For a viewer whose
+  /// picture that cone just holds, as exact as the picture shows (exponent_for_picture); without one as exact
+  /// as can be.
+  std::shared_ptr<const FrameMessage> message(const std::vector<int>& levels,
+                                              const std::optional<ViewCone>& picture = {});
   /// Records encoded so far.
   std::uint64_t encodes() const { return encodes_; }
 
  private:
+  /// Level, and exponent of the least quantum.
+  using Encoding = std::pair<int, int>;
   struct ShownCloth {
     int level = 0;
-    Vec3 place{0, 0, 0};            ///< Particles::place
-    VectorField<float> position;    ///< from there
-    std::optional<Walls> walls;     ///< if it is torn
-    std::map<int, Record> records;  ///< by level
+    Vec3 place{0, 0, 0};          ///< Particles::place
+    VectorField<float> position;  ///< from there
+    std::optional<Walls> walls;   ///< if it is torn
+    double cell = 0;              ///< shorter side of a cell of level 0, m
+    Eigen::AlignedBox3d box;      ///< holds it; empty until asked for
+    std::map<Encoding, Record> records;
   };
+  /// How `cloth` is sent at `level` to a viewer with that picture.
+  Encoding encoding(std::size_t cloth, int level, const std::optional<ViewCone>& picture);
   /// With its tears, if it has any.
-  const Record& cloth_record(std::size_t cloth, int level);
+  const Record& cloth_record(std::size_t cloth, const Encoding& encoding);
   /// Balls, then obstacles; no record for none.
   const std::vector<Record>& list_records();
   void forget_encodings();
@@ -52,7 +64,7 @@ class FrameEncoder {
   std::vector<protocol::FrameBall> balls_;
   std::vector<protocol::FrameObstacle> obstacles_;  ///< those that are not where `scene` says
   std::vector<Record> list_records_;                ///< empty until encoded
-  std::map<std::vector<int>, std::shared_ptr<const FrameMessage>> messages_;  ///< by levels
+  std::map<std::vector<Encoding>, std::shared_ptr<const FrameMessage>> messages_;  ///< by cloth
   std::uint64_t encodes_ = 0;
 };
 

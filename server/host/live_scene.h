@@ -89,6 +89,7 @@ class LiveScene {
   SceneMetrics::Guard guard_counts() const { return guard_.counts(); }
   /// How many viewers have their finest cloth at each level, from 0.
   std::vector<int> viewers_by_level() const;
+  SceneMetrics::Limited limited_viewers() const;
   bool empty() const { return seats_.empty(); }
 
   /// All that is not its simulation's and lasts when its viewers have gone, written down.
@@ -163,6 +164,8 @@ class LiveScene {
   std::optional<protocol::Error> too_many_grabs() const;
   /// Which cloths the viewer sees, and Eq. 7 for each, from where it is; `steps`: 1 in one, else 0.
   void look(Seat& seat, int steps = 0);
+  /// What it is sent: what its distance asks for, or coarser, as its link carries it.
+  std::vector<int> sent_levels(const Seat& seat) const;
   /// True for all cloths for which the scene makes no difference.
   bool sees(const Seat& seat, std::size_t cloth) const;
   /// The viewer has not seen the cloth for kUnseenTime.

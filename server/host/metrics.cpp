@@ -73,9 +73,10 @@ SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene, std::st
       energy_given_back_(add(counters(registry, "weft_energy_given_back_joules_total",
                                       "Energy of that which the ledger gave back"),
                              {{"scene", scene}})),
-      records_(add(counters(registry, "weft_encoded_records_total",
-                            "Records encoded: one a cloth, level and frame, however many viewers there are"),
-                   {{"scene", scene}})),
+      records_(add(
+          counters(registry, "weft_encoded_records_total",
+                   "Records encoded: one a cloth, level, lattice and frame, however many viewers there are"),
+          {{"scene", scene}})),
       redone_(add(guard_events(registry), {{"scene", scene}, {"event", "redone"}})),
       frozen_(add(guard_events(registry), {{"scene", scene}, {"event", "frozen"}})),
       balls_stopped_(add(guard_events(registry), {{"scene", scene}, {"event", "ball_stopped"}})),
@@ -100,6 +101,12 @@ SceneMetrics::SceneMetrics(Registry& registry, const std::string& scene, std::st
                       .Register(registry);
   for (std::size_t level = 0; level < viewers_.size(); ++level)
     viewers_[level] = &add(viewers, {{"scene", scene}, {"level", std::to_string(level)}});
+  auto& limited = BuildGauge()
+                      .Name("weft_limited_viewers")
+                      .Help("Viewers who are kept from frames, by what")
+                      .Register(registry);
+  limited_by_link_ = &add(limited, {{"scene", scene}, {"by", "link"}});
+  limited_by_client_ = &add(limited, {{"scene", scene}, {"by", "client"}});
 }
 
 SceneMetrics::~SceneMetrics() {
@@ -129,6 +136,11 @@ void SceneMetrics::rate(double rate) { rate_.Set(rate); }
 void SceneMetrics::saved() { saved_.SetToCurrentTime(); }
 
 void SceneMetrics::log_failed() { log_failures_.Increment(); }
+
+void SceneMetrics::limited(const Limited& viewers) {
+  limited_by_link_->Set(viewers.by_link);
+  limited_by_client_->Set(viewers.by_client);
+}
 
 void SceneMetrics::viewers(const std::vector<int>& by_level) {
   for (std::size_t level = 0; level < viewers_.size(); ++level)

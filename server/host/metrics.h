@@ -52,6 +52,11 @@ class SceneMetrics {
   void rate(double rate);
   /// How many viewers see their nearest cloth at each level, from 0.
   void viewers(const std::vector<int>& by_level);
+  /// How many viewers are kept from frames by their link, and how many are slow themselves.
+  struct Limited {
+    int by_link = 0, by_client = 0;
+  };
+  void limited(const Limited& viewers);
   /// A file with its state is on the disk.
   void saved();
   /// What is written of it could not be.
@@ -70,6 +75,7 @@ class SceneMetrics {
   prometheus::Counter &redone_, &frozen_, &balls_stopped_, &crowded_;
   prometheus::Counter& log_failures_;
   prometheus::Gauge &rate_, &saved_;
+  prometheus::Gauge *limited_by_link_ = nullptr, *limited_by_client_ = nullptr;
   std::array<prometheus::Gauge*, kMaxLevel + 1> viewers_{};
   Guard guard_;  ///< told so far
   std::string version_;

@@ -117,6 +117,19 @@ json effects_json(const SimulationDescription& description) {
   return effects;
 }
 
+/// What keeps frames from the viewer; nullptr for nothing.
+const char* limit_of(const Seat& seat, bool slow) {
+  switch (seat.link.limit()) {
+    case LinkKeeper::Limit::link:
+      return "link";
+    case LinkKeeper::Limit::client:
+      return "client";
+    case LinkKeeper::Limit::nothing:
+      break;
+  }
+  return slow ? "server" : nullptr;
+}
+
 const char* state_of(const Cloth<float>& cloth) {
   if (cloth.frozen()) return "frozen";
   return cloth.asleep() ? "asleep" : "awake";
@@ -216,10 +229,11 @@ std::string scene_text(const scene::Scene& scene, const Simulation<float>& simul
   return message.dump();
 }
 
-std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat) {
+std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat,
+                       const std::vector<int>& sent) {
   json cloths = json::array();
-  for (std::size_t i = 0; i < seat.levels.size(); ++i) {
-    const int level = std::min(seat.levels[i], state.levels[i]);
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    const int level = std::min(sent[i], state.levels[i]);
     cloths.push_back({{"cloth", i},
                       {"level", level},
                       {"simulated_level", state.levels[i]},
@@ -237,6 +251,8 @@ std::string stats_text(const Simulation<float>& simulation, const StatsState& st
                   {"viewers", state.viewers},
                   {"dropped", seat.viewer->dropped()},
                   {"cloths", std::move(cloths)}};
+  if (const char* limit = limit_of(seat, state.slow)) message["limit"] = limit;
+  if (seat.link.coarser() > 0) message["coarser"] = seat.link.coarser();
   if (!state.quality.is_null()) message["quality"] = state.quality;
   if (!state.guard.is_null()) message["guard"] = state.guard;
   return message.dump();

@@ -33,15 +33,18 @@ std::vector<std::shared_ptr<const std::string>> mesh_texts(const SimulationDescr
 /// `scene`, as it is sent to `seat`.
 std::string scene_text(const scene::Scene& scene, const Simulation<float>& simulation,
                        const SceneState& state, const Seat& seat);
-/// `stats`, as it is sent to `seat`. `substeps`, `levels` (simulated ones) and `unseen` are by cloth;
-/// `quality` and `guard` are null if there is nothing to tell of them.
+/// `stats`, as it is sent to `seat` with its cloths at `sent` levels. `slow`: the clock runs behind real
+/// time. `substeps`, `levels` (simulated ones) and `unseen` are by cloth; `quality` and `guard` are null if
+/// there is nothing to tell of them.
 struct StatsState {
   double rate = 1.0;
+  bool slow = false;
   std::size_t viewers = 0;
   std::vector<int> substeps, levels;
   std::vector<bool> unseen;
   nlohmann::json quality, guard;
 };
-std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat);
+std::string stats_text(const Simulation<float>& simulation, const StatsState& state, const Seat& seat,
+                       const std::vector<int>& sent);
 
 }  // namespace weft::host

@@ -162,6 +162,7 @@ void SceneRunner::carry_out(Task& task) {
       live_->remove_viewer(task.viewer.get(), task.visit);
     }
     scene_metrics_.viewers(live_->viewers_by_level());
+    scene_metrics_.limited(live_->limited_viewers());
     if (live_->empty()) scene_metrics_.rate(0);
   }
 }
@@ -236,6 +237,7 @@ void SceneRunner::send_stats_if_due() {
   const double rate = running_ ? clock_.rate() : made;
   scene_metrics_.rate(rate);
   live_->send_stats(rate);
+  scene_metrics_.limited(live_->limited_viewers());
   stats_sent_ = now;
   stats_due_ = std::max(stats_due_ + kStatsPeriod, now);
 }

@@ -9,6 +9,7 @@
 #include "cloth/core/vec3.h"
 #include "cloth/levels/level_policy.h"
 #include "cloth/levels/view_cone.h"
+#include "host/link_keeper.h"
 #include "host/viewer.h"
 
 namespace weft::host {
@@ -25,7 +26,8 @@ struct Seat {
   std::vector<double> distances;  ///< m, to each cloth's centre
   std::vector<int>
       policy_levels;        ///< by Eq. 7 and hysteresis, before the cloths' own limits; empty: no history yet
-  std::vector<int> levels;  ///< what it is sent
+  std::vector<int> levels;  ///< what its distance asks for
+  LinkKeeper link;
   std::vector<int>
       steps_unseen;   ///< in a row, by cloth, in which it did not see it; 0 where that makes no difference
   std::string token;  ///< by which it is resumed

@@ -7,11 +7,15 @@ namespace weft::host {
 namespace {
 
 /// As many frames a second are sent at most.
-constexpr double kFrameRate = 60;
+constexpr double kMostASecond = 60;
 /// Frames on the way at most beside those that a viewer asks for: of a second.
 constexpr int kMostMore = 60;
 /// An acknowledgement later than the way takes by more than this is of a frame that has queued.
 constexpr Viewer::Seconds kQueued{0.1};
+/// What a viewer may take over a frame without being slow.
+constexpr Viewer::Seconds kAtOnce{0.02};
+/// Of one acknowledgement in what they take.
+constexpr double kWeightOfOne = 0.25;
 
 }  // namespace
 
@@ -59,7 +63,11 @@ void Viewer::send(std::uint64_t visit, Text text, std::string_view key) {
 void Viewer::publish(std::uint64_t visit, std::shared_ptr<const FrameMessage> frame) {
   const std::lock_guard lock(mutex_);
   if (visit != visit_) return;
-  if (newest_) ++dropped_;
+  ++flow_.published;
+  if (newest_) {
+    ++dropped_;
+    ++flow_.dropped;
+  }
   newest_ = std::move(frame);
   before_frame_ = unkeyed_;
   wake_if_idle();
@@ -84,6 +92,7 @@ std::uint64_t Viewer::enter() {
   const std::lock_guard lock(mutex_);
   newest_ = nullptr;
   outstanding_.clear();
+  flow_ = {};
   return ++visit_;
 }
 
@@ -100,17 +109,45 @@ bool Viewer::acknowledge(std::uint32_t frame, TimePoint now) {
                                   [&](const Sent& sent) { return sent.frame == frame; });
   if (found == outstanding_.rend()) return false;
   // One at a time, up as down: what is sent now is told of a round trip later.
-  const bool queued = now - found->when > round_trip_ + kQueued;
-  const int room = std::min(kMostMore, static_cast<int>(round_trip_.count() * kFrameRate));
+  const Seconds taken = now - found->when;
+  const bool queued = taken > way_.shortest() + kQueued;
+  const int room = std::min(kMostMore, static_cast<int>(way_.shortest().count() * kMostASecond));
   more_ = queued ? std::max(0, more_ - 1) : std::min(room, more_ + 1);
+  taken_ += kWeightOfOne * (taken - taken_);
   outstanding_.erase(outstanding_.begin(), found.base());
   wake_if_idle();
   return true;
 }
 
-void Viewer::round_trip(Seconds time) {
+bool Viewer::ping(TimePoint now) {
   const std::lock_guard lock(mutex_);
-  round_trip_ = time;
+  if (way_.waits()) return false;
+  way_.asked(now);
+  return true;
+}
+
+void Viewer::pong(TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  way_.answered(now);
+}
+
+void Viewer::enable_levels() {
+  const std::lock_guard lock(mutex_);
+  levels_ = true;
+}
+
+bool Viewer::takes_coarser() const {
+  const std::lock_guard lock(mutex_);
+  return levels_;
+}
+
+Viewer::Flow Viewer::flow(TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  Flow flow = std::exchange(flow_, {});
+  // A ping waits behind one frame at least where two are on a slow link.
+  const Seconds waiting = outstanding_.empty() ? Seconds(0) : now - outstanding_.front().when;
+  flow.at_client = window_ > 0 && std::max(taken_, waiting) > 2 * way_.at_present(now) + kAtOnce;
+  return flow;
 }
 
 int Viewer::window() const {

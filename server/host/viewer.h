@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/way.h"
+
 namespace weft::host {
 
 /// The bytes of one record, encoded once and shared by all viewers it is sent to.
@@ -45,8 +47,8 @@ class Viewer {
   /// and when the outbox overflows. Set it before the first take(). It must not use the viewer. When
   /// on_wake(nullptr) has returned, it is not called any more and no call is under way.
   void on_wake(std::function<void()> wake);
-  using TimePoint = std::chrono::steady_clock::time_point;
-  using Seconds = std::chrono::duration<double>;
+  using TimePoint = Way::TimePoint;
+  using Seconds = Way::Seconds;
 
   /// The next message. Control messages keep their order. A frame is taken only while fewer than window() are
   /// unacknowledged, and never before a control message without a key that was sent before the frame was
@@ -74,18 +76,30 @@ class Viewer {
   /// acknowledgement.
   std::uint64_t enter();
   /// Capability flow.ack: `window` frames may be unacknowledged from now on, and as many more as the way
-  /// there and back has room for (round_trip).
+  /// there and back has room for (Way::shortest).
   void enable_acks(int window);
   /// The frame and those sent before it have been consumed. False if no such frame was outstanding. One that
   /// comes much later than the way takes tells that frames queue: on the way, or at a viewer that is slow.
   bool acknowledge(std::uint32_t frame, TimePoint now = std::chrono::steady_clock::now());
-  /// What the way there and back takes, as the network's own ping measures it: it does not wait for the
-  /// viewer.
-  void round_trip(Seconds time);
+  /// A ping of the WebSocket is to be sent now: false while one waits for its answer.
+  bool ping(TimePoint now = std::chrono::steady_clock::now());
+  /// Its answer has come.
+  void pong(TimePoint now = std::chrono::steady_clock::now());
   /// Frames that may be unacknowledged now.
   int window() const;
   /// Frames replaced by newer ones before they could be sent.
   std::uint64_t dropped() const;
+  /// Capability flow.level: what is sent may be coarser where the link carries too little.
+  void enable_levels();
+  bool takes_coarser() const;
+  /// What became of frames.
+  struct Flow {
+    int published = 0, dropped = 0;
+    /// Acknowledgements come much later than pings: frames wait at the viewer, not on the way to it.
+    bool at_client = false;
+  };
+  /// Since the last call.
+  Flow flow(TimePoint now = std::chrono::steady_clock::now());
 
  private:
   // These need mutex_.
@@ -114,9 +128,12 @@ class Viewer {
     std::uint32_t frame;
     TimePoint when;
   };
-  int window_ = 0;        ///< 0: without flow.ack
-  int more_ = 0;          ///< frames that may be on the way beside those
-  Seconds round_trip_{};  ///< 0: not known
+  int window_ = 0;       ///< 0: without flow.ack
+  int more_ = 0;         ///< frames that may be on the way beside those
+  bool levels_ = false;  ///< flow.level
+  Way way_;
+  Seconds taken_{};  ///< from sending a frame to its acknowledgement, smoothed
+  Flow flow_;        ///< since the last flow()
   std::deque<Sent> outstanding_;
 };
 

@@ -11,20 +11,25 @@ namespace weft::net {
 
 // Close codes of RFC 6455, section 7.4.1.
 inline constexpr std::uint16_t kProtocolError = 1002;
+inline constexpr std::uint16_t kNoText = 1007;
 inline constexpr std::uint16_t kPolicyViolation = 1008;
 
-/// The head of one frame (RFC 6455, section 5.2), and the code if it closes.
+/// The head of one frame (RFC 6455, section 5.2), and what it says if it closes.
 struct FrameHead {
   std::size_t size = 0;                     ///< bytes of the head itself: 2 to 14
   std::uint64_t payload = 0;                ///< bytes that follow it
   bool control = false;                     ///< ping, pong or close
   bool final = true;                        ///< the last, or the only, fragment of its message
   std::optional<std::uint16_t> close_code;  ///< of a close that has one
+  bool reason_is_text = true;               ///< what follows the code is UTF-8
 };
 
 /// The head of the frame that begins with `bytes`; nothing as long as they end before the head does, or
-/// before the close code behind it.
+/// before the end of a close that is no longer than a close may be.
 std::optional<FrameHead> parse_frame_head(std::string_view bytes);
+
+/// Whether the text is UTF-8 (The Unicode Standard, table 3-7).
+bool is_utf8(std::string_view text);
 
 /// Whether an endpoint may send this close code (RFC 6455, section 7.4).
 bool close_code_allowed(std::uint16_t code);

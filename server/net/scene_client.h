@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -31,14 +34,20 @@ class RefusedError : public std::runtime_error {
 struct SceneClientOptions {
   std::string name = "weft client";       ///< told to the server
   int window = 4;                         ///< frames on their way that are not acknowledged, 1..8
+  bool coarser = false;                   ///< where the link carries too few frames levels may be coarser
   std::chrono::milliseconds limit{5000};  ///< to connect, and for each answer
   ClientSecurity security;
+  /// A connection that breaks is made again, tried after 0.25, 0.5, 1 s and so on to 10 s: at the same
+  /// camera, with what this client held if that is within 5 s.
+  bool reconnect = false;
   /// Hears every control message, answers as well, and its text; may post, and must not ask.
   std::function<void(const nlohmann::json& message, std::string_view text)> on_message;
 };
 
-/// One connection to one scene; for one thread. Throws ConnectionError when the connection has ended, and
-/// std::runtime_error where the server does not keep to the protocol.
+/// One client of one scene; for one thread. Throws ConnectionError when the connection has ended,
+/// RefusedError if the server refuses its `hello`, and std::runtime_error where the server does not keep to
+/// the protocol. With `reconnect` a connection that has ended is made again within next_frame() and ask(); a
+/// command on its way then fails with ConnectionError all the same.
 class SceneClient {
  public:
   using TimePoint = Client::TimePoint;
@@ -56,30 +65,73 @@ class SceneClient {
   nlohmann::json ask(const protocol::Command& command);
   /// Sends a command; its answer, with the id that is returned, comes to `on_message`.
   std::int64_t post(const protocol::Command& command);
-  /// The same for a message of the caller's making, which keeps an id of its own.
+  /// The same for a message of the caller's making, which keeps an id of its own. It is not done again after
+  /// a reconnection.
   void post(nlohmann::json message);
 
   /// The newest frame that has not been taken yet, or else the next one; it is acknowledged, so that the
-  /// server sends only as fast as frames are taken. Nothing if none has come by `until`.
+  /// server sends only as fast as frames are taken. Nothing if none has come by `until`; an attempt to
+  /// connect that has begun by then may take `limit` longer.
   std::optional<Received> next_frame(TimePoint until);
 
   /// The newest `scene` message; null until it has come, which is before the first answer.
   const nlohmann::json& scene() const { return scene_; }
+  /// False between the end of a connection and the next.
+  bool connected() const { return client_ != nullptr; }
+  /// Capabilities that the server has agreed to; empty until it has.
+  const std::vector<std::string>& capabilities() const { return capabilities_; }
 
-  /// Says good-bye and waits a little for the answer.
-  void close() { client_.close(); }
+  /// Says good-bye and waits a little for the answer. No connection is made again.
+  void close();
 
  private:
+  /// What a connection that broke had: a scene, and the seat in it by which its hands may be had.
+  struct Seat {
+    std::string scene, token;
+  };
+
+  void connect();
+  /// Connects again as it was, in the times between attempts; whether that was done by `until`.
+  bool come_back(TimePoint until);
+  /// Where it was before, as far as that can be.
+  void restore();
+  /// The connection has ended.
+  void lose();
+  void plan_attempt();
+  bool comes_back() const { return options_.reconnect && !closed_; }
+  // Both lose a connection that ends meanwhile, and throw.
+  std::optional<Client::Message> receive(TimePoint until);
+  void send(const std::string& text);
+  /// Waits for the answer to what was posted under this id.
+  nlohmann::json await(std::int64_t id);
+  /// What is to be known of a command when its answer has come, or when it is sent.
+  void remember(const protocol::Command& command);
   void take(Client::Message message);
   void take_control(std::string_view text);
+  void take_answer(const nlohmann::json& message);
 
+  Url url_;
   SceneClientOptions options_;
-  Client client_;
+  std::unique_ptr<Client> client_;  ///< null while there is no connection
   std::int64_t last_id_ = 0;
   nlohmann::json scene_;
   std::int64_t asked_ = 0;            ///< id of the command whose answer is waited for; 0: none
   nlohmann::json answer_;             ///< null until it has come
   std::vector<std::uint8_t> newest_;  ///< empty: no frame waits
+
+  std::int64_t hello_ = 0;  ///< its id, until it is answered
+  std::vector<std::string> capabilities_;
+  bool acks_ = false;  ///< flow.ack is agreed on
+
+  // For the next connection.
+  bool closed_ = false;  ///< by close()
+  int attempts_ = 0;     ///< since there was a connection
+  TimePoint next_attempt_{};
+  std::minstd_rand random_{std::random_device{}()};
+  std::optional<protocol::Camera> camera_;                       ///< as it was told last
+  std::optional<std::pair<std::int64_t, std::string>> joining_;  ///< a scene.join's id, and the scene
+  std::set<std::uint32_t> held_;                                 ///< ids of grabs that it has not let go of
+  std::vector<Seat> seats_;                                      ///< by which they may be had
 };
 
 }  // namespace weft::net

@@ -3,13 +3,11 @@
 #include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,9 +30,8 @@ constexpr auto kHandshakeTime = std::chrono::seconds(10);
 constexpr auto kIdleTime = std::chrono::seconds(60);
 /// For a viewer to take what it is sent last, and to answer the close.
 constexpr auto kCloseTime = std::chrono::seconds(2);
-/// Between two measurements of the way to a viewer, and how many of late count.
+/// Between two measurements of the way to a viewer.
 constexpr auto kPingPeriod = std::chrono::seconds(1);
-constexpr std::size_t kWaysKept = 10;
 constexpr const char* kPingText = "way";
 constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004, kSceneEnded = 4005;
 
@@ -128,13 +125,9 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     measure_way();
   }
 
-  /// Now and every second, by a ping of the WebSocket, which whoever is at the other end answers at once,
-  /// however long it takes over frames. The shortest of late counts: others have waited behind frames.
+  /// Now and every second, by a ping of the WebSocket.
   void measure_way() {
-    if (!pinged_) {
-      pinged_ = std::chrono::steady_clock::now();
-      ws_.async_ping(kPingText, [self = shared_from_this()](error_code) {});
-    }
+    if (viewer().ping()) ws_.async_ping(kPingText, [self = shared_from_this()](error_code) {});
     way_timer_.expires_after(kPingPeriod);
     way_timer_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
@@ -143,10 +136,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   }
 
   void on_control(websocket::frame_type kind, beast::string_view text) {
-    if (kind != websocket::frame_type::pong || text != kPingText || !pinged_) return;
-    ways_.emplace_back(std::chrono::steady_clock::now() - *std::exchange(pinged_, std::nullopt));
-    if (ways_.size() > kWaysKept) ways_.pop_front();
-    viewer().round_trip(*std::min_element(ways_.begin(), ways_.end()));
+    if (kind == websocket::frame_type::pong && text == kPingText) viewer().pong();
   }
 
   void read() {
@@ -256,8 +246,6 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   asio::steady_timer read_pause_;
   asio::steady_timer close_deadline_;
   asio::steady_timer way_timer_;
-  std::optional<std::chrono::steady_clock::time_point> pinged_;  ///< without an answer yet
-  std::deque<host::Viewer::Seconds> ways_;
   std::string peer_;
   beast::flat_buffer incoming_;
   host::Outgoing outgoing_;    ///< what is being written

@@ -175,6 +175,8 @@ test('what limits the pictures: server, page, link, in this order', () => {
   assert.equal(limitOf({...well, rate: 0.5, received: 30}), 'server');
   assert.equal(limitOf({...well, looks: 20, received: 20}), 'page');  // it takes no more, so no more are sent
   assert.equal(limitOf({...well, received: 20}), 'link');
+  assert.equal(limitOf({...well, limit: 'client', received: 20}), 'page');  // the server knows better
+  assert.equal(limitOf({...well, limit: 'link', looks: 20, received: 20}), 'link');
   assert.equal(limitOf({...well, dt: 1 / 30, received: 30}), 'nothing');  // there are no more
   assert.equal(limitOf({...well, dt: 1 / 240, received: 60}), 'nothing');  // no more are sent
   assert.equal(limitOf({...well, rate: 0, received: 0}), null);

@@ -86,6 +86,12 @@ test('connects with hello, and knows the welcome and the scene', async () => {
   assert.equal(server.sockets[0].protocol, 'weft.v1');
 });
 
+test('asks for coarser levels only if told to', async () => {
+  const server = await serve();
+  await join(server, { coarser: true, window: 0 });
+  assert.deepEqual(await server.expect('hello'), { op: 'hello', id: 1, caps: ['flow.level'] });
+});
+
 test('closed while its socket is made, it makes no connection', async () => {
   const server = await serve();
   const states = [];
@@ -387,6 +393,26 @@ test('with reconnect it takes over what it held, and lets go of what it let go o
   assert.deepEqual(server.received.map(({ id, t, ...message }) => message), [
     { op: 'hello', caps: ['flow.ack'], window: 2 }, { op: 'seat.resume', seat }, { op: 'grab.release', grab: 8 },
     { op: 'ping' }]);
+});
+
+test('a way that breaks while it takes over what it held loses nothing', async () => {
+  const seats = ['a', 'b', 'c'].map((letter) => letter.repeat(32));
+  let connections = 0;
+  const server = await serve({ greet: false, afterConnection: (socket) => {
+    for (const message of [welcome, { ...scene, seat: seats[connections++] }]) socket.send(JSON.stringify(message));
+  }, answer: ({ op, seat }) => {
+    if (op === 'seat.resume' && connections === 2) server.sockets[1].terminate();
+    return op === 'cloth.grab' ? { grab: 7 } : op === 'seat.resume' ? { grabs: seat === seats[0] ? [7] : [] } : {};
+  } });
+  let opened;
+  const client = await join(server, { reconnect: true, onstate: (state) => state === 'open' && opened?.() });
+  await client.grab(0, 0.5, 0.5);
+  const again = new Promise((resolve) => { opened = resolve; });
+  server.sockets[0].terminate();
+  await again;
+  assert.equal(connections, 3);
+  const resumed = server.received.filter(({ op }) => op === 'seat.resume').map(({ seat }) => seat);
+  assert.deepEqual(resumed, [seats[0], seats[0], seats[1]]);
 });
 
 test('with reconnect a server that is not there yet is waited for', async () => {

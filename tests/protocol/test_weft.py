@@ -157,6 +157,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(server.socket.path, "/v1/scenes/flag")
             self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "client": "test", "caps": ["flow.ack"], "window": 3})
 
+    async def test_asks_for_coarser_levels_only_if_told_to(self):
+        async with Server() as server, await weft.connect(server.url, coarser=True, window=0):
+            self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "caps": ["flow.level"]})
+
     async def test_the_surface_of_a_mesh_is_asked_for_beside_the_scene(self):
         surface, asked = {"vertices": [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], "triangles": [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]}, []
 
@@ -359,6 +363,38 @@ class Client(unittest.IsolatedAsyncioTestCase):
             with self.assertRaises(weft.WeftError) as caught:
                 await request
             self.assertEqual(caught.exception.code, "closed")
+
+    async def test_a_way_that_breaks_while_it_takes_over_what_it_held_loses_nothing(self):
+        seats, resumed = ["a" * 32, "b" * 32, "c" * 32], []
+
+        class Breaking(Server):
+            connections = 0
+
+            async def handle(self, socket):
+                self.socket, seat = socket, seats[self.connections]
+                self.connections += 1
+                await socket.send(json.dumps(WELCOME))
+                await socket.send(json.dumps({**SCENE, "seat": seat}))
+                with contextlib.suppress(websockets.ConnectionClosed):
+                    async for text in socket:
+                        await self.receive(socket, json.loads(text))
+
+        def answer(message):
+            if message["op"] == "seat.resume":
+                resumed.append(message["seat"])
+                if server.connections == 2:
+                    server.socket.transport.abort()
+                return {"grabs": [7] if message["seat"] == seats[0] else []}
+            return {"grab": 7} if message["op"] == "cloth.grab" else {}
+
+        async with Breaking(answer) as server, await weft.connect(server.url, reconnect=True) as scene:
+            await scene.grab(0, 0.5, 0.5)
+            server.socket.transport.abort()
+            end = asyncio.get_running_loop().time() + LIMIT
+            while len(resumed) < 3:
+                self.assertLess(asyncio.get_running_loop().time(), end, resumed)
+                await asyncio.sleep(0.02)
+            self.assertEqual(resumed, [seats[0], seats[0], seats[1]])
 
     async def test_it_comes_back_though_the_way_breaks_again_meanwhile(self):
         cameras = []

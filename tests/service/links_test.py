@@ -1,7 +1,9 @@
-"""Viewers at the end of a long way: frames come as often as to those nearby, and a slow viewer's do not queue."""
+"""Viewers at the end of a long way: frames come as often as to those nearby, and a slow viewer's do not queue. Of a narrow one:
+what they are sent follows what it carries, and they are told."""
 import asyncio
 import contextlib
 import re
+import socket
 import time
 import unittest
 
@@ -45,6 +47,42 @@ class LongWay:
         loop.call_later(WAY / 2, deliver, b"")
 
 
+class NarrowWay:
+    """A proxy that hands on at most `rate` bytes a second of what the server says, and keeps little of it waiting."""
+    PIECE = 1024
+
+    def __init__(self, port):
+        self.port, self.rate = port, None  # None: as they come
+
+    async def __aenter__(self):
+        self.server = await asyncio.start_server(self.connect, "127.0.0.1", 0)
+        return self
+
+    async def __aexit__(self, *exception):
+        self.server.close()
+        await self.server.wait_closed()
+
+    @property
+    def url(self):
+        return f"ws://127.0.0.1:{self.server.sockets[0].getsockname()[1]}/v1/scenes/hung"
+
+    async def connect(self, reader, writer):
+        onward = socket.socket()
+        onward.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 * self.PIECE)
+        onward.connect(("127.0.0.1", self.port))
+        onward_reader, onward_writer = await asyncio.open_connection(sock=onward, limit=self.PIECE)
+        await asyncio.gather(self.hand_on(reader, onward_writer, narrow=False), self.hand_on(onward_reader, writer, narrow=True))
+
+    async def hand_on(self, reader, writer, narrow):
+        with contextlib.suppress(ConnectionError):
+            while data := await reader.read(self.PIECE):
+                writer.write(data)
+                await writer.drain()
+                if narrow and self.rate:
+                    await asyncio.sleep(len(data) / self.rate)
+        writer.close()
+
+
 class Links(unittest.IsolatedAsyncioTestCase):
     def setUp(self):
         self.server = Server(SCENES / "hung.json")
@@ -83,6 +121,56 @@ class Links(unittest.IsolatedAsyncioTestCase):
                 taken += await self.frames_in_a_second(client, pause=0.25)
             # Each that it takes acknowledges both that were on the way, so that two follow. 60 a second are made.
             self.assertLessEqual(self.sent() - before, 2 * taken + 3)
+
+    async def narrow(self, way, **options):
+        """A viewer close to the cloth, by that way, and its newest `stats`."""
+        client = await weft.connect(way.url, timeout=GENEROUS, **options)
+        self.addAsyncCleanup(client.close)
+        await client.camera(distance=0.8)
+        await self.until_stats(client, lambda stats: stats["cloths"][0]["level"] == 6)
+        return client
+
+    async def until_stats(self, client, wanted):
+        end = time.monotonic() + GENEROUS
+        while not (client.stats and wanted(client.stats)):
+            self.assertLess(time.monotonic(), end, f"is {client.stats}")
+            await client.next_frame()
+        return client.stats
+
+    async def test_a_narrow_link_gets_a_coarser_level_and_the_finer_one_back(self):
+        async with NarrowWay(self.server.port) as way:
+            client = await self.narrow(way, coarser=True)
+            # Frames of levels 6, 5 and 4 have some 14, 4 and 1.4 kB: 3, 12 and 36 of 60 a second have room.
+            way.rate = 50_000
+            stats = await self.until_stats(client, lambda stats: "coarser" in stats)
+            self.assertEqual(stats["limit"], "link")
+            self.assertIn(b'weft_limited_viewers{by="link",scene="hung"} 1', self.server.get("/metrics")[2])
+            stats = await self.until_stats(client, lambda stats: stats.get("coarser") == 2)
+            frame = await client.next_frame(lambda frame: frame.cloths[0].level == 4)
+            self.assertEqual(frame.cloths[0].simulated_level, 6)
+            way.rate = None
+            stats = await self.until_stats(client, lambda stats: "coarser" not in stats)
+            self.assertNotIn("limit", stats)
+            await client.next_frame(lambda frame: frame.cloths[0].level == 6)
+
+    async def test_without_asking_for_it_no_level_is_lost(self):
+        async with NarrowWay(self.server.port) as way:
+            client = await self.narrow(way)
+            way.rate = 50_000
+            await self.until_stats(client, lambda stats: stats.get("limit") == "link")
+            dropped = client.stats["dropped"]
+            stats = await self.until_stats(client, lambda stats: stats["dropped"] > dropped + 120)  # 2 s
+            self.assertEqual((stats["cloths"][0]["level"], "coarser" in stats), (6, False))
+
+    async def test_a_slow_viewer_is_told_that_it_is(self):
+        async with await weft.connect(self.server.url(), timeout=GENEROUS, coarser=True) as client:
+            await client.camera(distance=0.8)
+            end = time.monotonic() + GENEROUS
+            while client.stats.get("limit") != "client":
+                self.assertLess(time.monotonic(), end, f"is {client.stats}")
+                await client.next_frame()
+                await asyncio.sleep(0.25)
+            self.assertNotIn("coarser", client.stats)
 
 
 if __name__ == "__main__":

@@ -133,9 +133,8 @@ def client_frame(opcode, payload=b"", final=True):
     return bytes([(0x80 if final else 0) | opcode, 0x80 | len(payload)]) + b"\0\0\0\0" + payload
 
 
-def server_frames(connection):
-    """Opcode and payload of each frame that comes, until the server closes."""
-    received = b""
+def server_frames(connection, received=b""):
+    """Opcode and payload of each frame that has come and comes, until the server closes."""
     with contextlib.suppress(ConnectionResetError):
         while chunk := connection.recv(65536):
             received += chunk

@@ -67,10 +67,11 @@ export class Hud {
     write('number-drawn', `${(drawn / seconds).toFixed(0)} per second`);
   }
 
-  /** @param {{age: number, onWay: number}|null} ages ms @param {string|null} limit see limitOf */
-  showPace(ages, limit) {
+  /** @param {{age: number, onWay: number}|null} ages ms @param {string|null} limit see limitOf @param {number} [coarser] levels that the link costs */
+  showPace(ages, limit, coarser = 0) {
     write('number-age', ages ? `${ages.age.toFixed(0)} ms, ${ages.onWay.toFixed(0)} on the way` : '–');
-    write('number-limit', limit === null ? 'it stands still' : kLimits[limit]);
+    const cost = coarser > 0 ? ` (coarser by ${coarser} for the link)` : '';
+    write('number-limit', limit === null ? 'it stands still' : kLimits[limit] + cost);
   }
 
   showRoundTrip(ms) {

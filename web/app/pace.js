@@ -4,14 +4,18 @@ const kMostFrames = 60;     // a second; the server sends no more
 const kEnough = 0.8;        // of what is due
 const kRealTime = 0.97;     // seconds of the scene a second; below it runs behind
 
+/** What the server calls the page. */
+const kOfServer = {client: 'page'};
+
 /**
- * What limits the pictures.
- * @param {{rate: number, dt: number, received: number, looks: number}} of simulated seconds a second (0: nothing is stepped), length
+ * What limits the pictures: as the server tells, which knows what it leaves out and why; else as it looks from here.
+ * @param {{limit?: string, rate: number, dt: number, received: number, looks: number}} of the server's `limit`, simulated seconds a second (0: nothing is stepped), length
  *   of a step (s), frames received a second, and how often a second the page comes to draw
  * @returns {'server'|'page'|'link'|'nothing'|null} null: the scene stands still
  */
-export function limitOf({rate, dt, received, looks}) {
+export function limitOf({limit, rate, dt, received, looks}) {
   if (rate === 0) return null;
+  if (limit) return kOfServer[limit] ?? limit;
   if (rate < kRealTime) return 'server';
   const due = kEnough * Math.min(kMostFrames, rate / dt);
   // A page that is slow to take frames is sent fewer: it is looked at before the link.

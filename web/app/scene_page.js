@@ -290,9 +290,10 @@ export class ScenePage {
     if (seconds < 1) return;
     const {frames, looks} = this.counts;
     this.hud.showRates({...this.counts, seconds});
-    const {rate = 0} = this.latest.stats ?? {};
+    const {rate = 0, limit, coarser} = this.latest.stats ?? {};
     const dt = this.show.description?.dt ?? 1;
-    this.hud.showPace(this.ages.take(), limitOf({rate, dt, received: frames / seconds, looks: looks / seconds}));
+    const limits = limitOf({limit, rate, dt, received: frames / seconds, looks: looks / seconds});
+    this.hud.showPace(this.ages.take(), limits, coarser);
     Object.assign(this.counts, {frames: 0, bytes: 0, drawn: 0, looks: 0, sinceMs: nowMs});
   }
 }

@@ -69,6 +69,7 @@ function open() {
     client: 'weft page',
     token: token ?? undefined,
     reconnect: true,
+    coarser: true,
     local: true,
     onmessage: (message) => {
       if (mine !== client) return;

@@ -35,6 +35,7 @@ export class Player {
       client: 'weft view',
       token: token ?? undefined,
       reconnect: true,
+      coarser: true,
       local: true,
       onmessage: (message) => client === this.#client && this.#hear(message),
       onframe: (frame) => {

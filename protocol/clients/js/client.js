@@ -7,6 +7,9 @@ import { messageText } from './messages.js';
 import { Requests } from './requests.js';
 import { backoff, bearer, openSocket } from './transport.js';
 
+/** What is held waits 5 s; in these there are fewer attempts. */
+const MOST_SEATS = 8;
+
 /**
  * @typedef {import('./types.js').Frame} Frame
  * @typedef {import('./types.js').Surface} Surface
@@ -34,8 +37,8 @@ export class WeftClient extends Commands {
   #clock = new ServerClock();
   /** @type {Parameters<Commands['camera']>[0]} as it was told last */
   #camera = undefined;
-  /** The `scene` before the connection broke. @type {any} */
-  #before = null;
+  /** The `scene` messages of connections that broke, by whose seats what this client holds may be had. @type {any[]} */
+  #before = [];
   /** Ids of grabs that this client has not let go of. @type {Set<number>} */
   #held = new Set();
   /** Ends a wait between attempts early. @type {(() => void)|null} */
@@ -155,7 +158,8 @@ export class WeftClient extends Commands {
   /** One attempt to connect: done when the server has greeted, sent the scene, and answered `hello`. */
   async #attempt() {
     if (this.#closed) throw new WeftError('closed', 'closed by this client');
-    const { window: frames, client, token } = this.#options;
+    const { window: frames, client, coarser, token } = this.#options;
+    const caps = [...(frames ? ['flow.ack'] : []), ...(coarser ? ['flow.level'] : [])];
     const socket = await openSocket(this.#url, token, this.#options.WebSocket);
     if (this.#closed) {  // while the socket was made
       socket.onerror = () => {};  // what `ws` says of a connection that is not awaited
@@ -163,19 +167,18 @@ export class WeftClient extends Commands {
       throw new WeftError('closed', 'closed by this client');
     }
     this.#socket = socket;
-    this.#before = this.scene ?? this.#before;
+    // One that breaks before it has taken over what an older one held is only the next to be asked for.
+    this.#before = this.#held.size > 0 ? [...this.#before, ...(this.scene?.seat ? [this.scene] : [])].slice(-MOST_SEATS) : [];
     this.welcome = this.scene = null;
     this.#delivery.clear();
     this.#acks = false;
     this.#clock = new ServerClock();
     try {
       await this.#greeted(socket);
-      if (frames || client) await this.send('hello', { client, caps: frames ? ['flow.ack'] : [], window: frames || undefined });
+      if (caps.length > 0 || client) await this.send('hello', { client, caps, window: frames || undefined });
       // A camera refused then is refused now; the connection is good all the same.
       if (this.#camera) await super.camera(this.#camera).catch(() => {});
-      const before = this.#before;
-      this.#before = null;
-      if (before?.seat && before.name === this.scene.name) await this.#resume(before.seat);
+      await this.#resume();
       if (socket.readyState !== 1) throw new WeftError('closed', 'closed by the server');
     } catch (error) {
       socket.close();
@@ -249,11 +252,20 @@ export class WeftClient extends Commands {
     });
   }
 
-  /** Takes over what this client held before its connection broke, and lets go of what it let go of meanwhile. @param {string} seat */
-  async #resume(seat) {
-    if (this.#held.size === 0) return;
-    /** @type {{grabs: number[]}} */
-    const { grabs } = await this.resumeSeat(seat).catch(() => ({ grabs: [] }));  // too late: all is released
+  /** Takes over what this client held before its connection broke, and lets go of what it let go of meanwhile. */
+  async #resume() {
+    /** @type {number[]} */
+    let grabs = [];
+    for (const { name, seat } of this.#before) {
+      if (name !== this.scene.name) continue;
+      try {
+        ({ grabs } = await this.resumeSeat(seat));
+      } catch (error) {
+        // Broken again: it is asked for once more. Else it is too late, and all is released.
+        if (['closed', 'timeout'].includes(/** @type {WeftError} */ (error).code)) throw error;
+      }
+    }
+    this.#before = [];
     for (const grab of grabs) if (!this.#held.has(grab)) this.post('grab.release', { grab });
     for (const grab of this.#held) if (!grabs.includes(grab)) this.#held.delete(grab);
   }

@@ -42,7 +42,8 @@ export class Commands {
   /**
    * Tells where this viewer's camera is. Decides the level of each cloth (Eq. 7) for this viewer and, with `target`
    * and `half_angle`, what it has in sight: all within that angle of the line from the eye to the target. Without
-   * them it sees in every direction.
+   * them it sees in every direction. With them the viewer is taken to draw a picture, and is sent positions as exact
+   * as that shows (section 4); without them as exact as can be.
    * @param {{distance?: number, eye?: Vector, target?: Vector, halfAngle?: number}} [options] distance: from the cloths, 0..1e6 m; eye: where the camera is, m; target: what it looks at, another point than the eye, m; halfAngle: how far from the line to the target it sees, 0.001..3.14 rad
    */
   camera({ distance, eye, target, halfAngle } = {}) {

@@ -48,6 +48,8 @@
  * @property {string} [token] the server's, where it asks for one: 16 to 128 letters, digits or any of "-._~"
  * @property {number} [window] unacknowledged frames, 1..8 (default 2), beside those that the way has room for; 0: no flow
  *   control, the server sends as fast as it can
+ * @property {boolean} [coarser] cloths may be sent at coarser levels than the camera asks for, where the link carries too few
+ *   frames (default false)
  * @property {boolean} [local] as decodeFrame's (default false)
  * @property {number} [timeout] ms to wait for a connection or a reply (default 5000)
  * @property {boolean} [reconnect] come back after a lost connection, and keep trying at first: 0.25 s, doubled up to 10 s,

@@ -295,6 +295,9 @@ TEST_F(Commands, ASlowClockIsToldOnceAndInEachFrame) {
                           [](const json& text) { return text.at("op") == "notice"; }),
             1);
   EXPECT_EQ(other.frames.back().stamp.flags & kFlagSlow, kFlagSlow);
+  live.send_stats(0.5);
+  drain();
+  EXPECT_EQ(other.last("stats").at("limit"), "server");
   live.set_slow(false);
   steps(1);
   EXPECT_EQ(other.last("notice").at("code"), "real_time");

@@ -111,6 +111,35 @@ TEST(FrameGate, CloseCodesThatMayNotBeSentAre1002) {
   }
 }
 
+/// Section 8.1; the characters of table 3-7 of the Unicode Standard, at its edges.
+TEST(FrameGate, ReasonsThatAreNoTextAre1007) {
+  const std::string good = "\x03\xe8";  // 1000
+  for (const std::string text : {"", "why", "\xce\xba", "\xc2\x80", "\xe0\xa0\x80", "\xed\x9f\xbf",
+                                 "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    for (const std::size_t piece : {1U, 100U}) {
+      FrameGate gate(kFramesPerSecond, kStart);
+      EXPECT_EQ(through(gate, frame(0x88, good + text), piece), frame(0x88, good + text)) << text;
+    }
+  }
+  for (const std::string text : {"\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
+                                 "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xce", "why\xff", "\xe2\x82\x28"}) {
+    for (const std::size_t piece : {1U, 100U}) {
+      FrameGate gate(kFramesPerSecond, kStart);
+      EXPECT_EQ(through(gate, frame(0x88, good + text), piece), substitute(1007)) << text;
+    }
+  }
+}
+
+/// Section 5.2: the highest bit of a length in 64 bits is 0.
+TEST(FrameGate, ALengthBeyond63BitsIs1002) {
+  FrameGate gate(kFramesPerSecond, kStart);
+  const std::string head = std::string("\x81\xff\x80") + std::string(7, '\0') + "\1\2\3\4";
+  EXPECT_EQ(through(gate, head, 1), substitute(1002));
+  FrameGate longest(kFramesPerSecond, kStart);  // too long for a message, which the WebSocket tells
+  const std::string all = "\x81\xff\x7f" + std::string(7, '\xff') + "\1\2\3\4";
+  EXPECT_EQ(through(longest, all, 1), all);
+}
+
 TEST(FrameGate, ACloseWithoutACodeIsHandedOn) {
   FrameGate gate(kFramesPerSecond, kStart);
   EXPECT_EQ(through(gate, frame(0x88, ""), 1), frame(0x88, ""));

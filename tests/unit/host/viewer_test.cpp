@@ -107,10 +107,11 @@ double rate_by(double way, double viewer_takes, double window_at_end) {
   Viewer viewer;
   const auto visit = viewer.enter();
   viewer.enable_acks(2);
-  viewer.round_trip(Seconds(way));
   const auto at = [](double seconds) {
     return Viewer::TimePoint(std::chrono::duration_cast<Viewer::TimePoint::duration>(Seconds(seconds + 100)));
   };
+  viewer.ping(at(-way));
+  viewer.pong(at(0));
   std::deque<std::pair<double, std::uint32_t>> acks;  // when the server has it
   int taken = 0;
   double free_at = 0;  // when the viewer has done with what came before
@@ -141,6 +142,54 @@ TEST(Viewer, ASlowViewerGetsNoMoreThanItTakes) {
   // It takes 5 a second, so that each waits for it.
   EXPECT_LT(rate_by(0, 0.2, 2), 6);
   EXPECT_LT(rate_by(0.1, 0.2, 2), 6);
+}
+
+/// Whether frames are found to wait at the client: sent at 60 a second for a second, acknowledged `taken`
+/// later each, while a ping takes `ping`.
+bool waits_at_client(double taken, double ping) {
+  const auto at = [](double seconds) {
+    return Viewer::TimePoint(
+        std::chrono::duration_cast<Viewer::TimePoint::duration>(Viewer::Seconds(seconds + 100)));
+  };
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  viewer.enable_acks(8);
+  EXPECT_TRUE(viewer.ping(at(0)));
+  EXPECT_FALSE(viewer.ping(at(ping / 2)));
+  viewer.pong(at(ping));
+  for (std::uint32_t step = 1; step <= 60; ++step) {
+    viewer.publish(visit, frame(step));
+    EXPECT_EQ(static_cast<std::uint32_t>(viewer.take(at(step / 60.0))->frame->frame), step);
+    viewer.acknowledge(step, at(step / 60.0 + taken));
+  }
+  const Viewer::Flow flow = viewer.flow(at(1 + taken));
+  EXPECT_EQ(flow.published, 60);
+  EXPECT_EQ(flow.dropped, 0);
+  EXPECT_EQ(viewer.flow().published, 0);
+  return flow.at_client;
+}
+
+TEST(Viewer, WhereFramesWaitIsToldByPings) {
+  EXPECT_FALSE(waits_at_client(0.01, 0.001));
+  EXPECT_FALSE(waits_at_client(0.5, 0.3));  // what waits for the link delays pings, too
+  EXPECT_TRUE(waits_at_client(0.5, 0.001));
+}
+
+TEST(Viewer, FramesThatAreNeverAcknowledgedWaitAtTheClient) {
+  Viewer viewer;
+  const auto visit = viewer.enter();
+  viewer.enable_acks(1);
+  const Viewer::TimePoint start{};
+  viewer.ping(start);
+  viewer.pong(start + std::chrono::milliseconds(1));
+  viewer.publish(visit, frame(1));
+  viewer.take(start);
+  viewer.publish(visit, frame(2));
+  viewer.publish(visit, frame(3));
+  const Viewer::Flow flow = viewer.flow(start + std::chrono::seconds(1));
+  EXPECT_EQ(flow.published, 3);
+  EXPECT_EQ(flow.dropped, 1);
+  EXPECT_TRUE(flow.at_client);
 }
 
 TEST(Viewer, AcknowledgingWhatWasNotSentChangesNothing) {

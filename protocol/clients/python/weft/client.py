@@ -20,10 +20,11 @@ from .requests import Requests
 from .transport import Transport, backoff
 from .types import Frame, Message
 
+_MOST_SEATS = 8  # what is held waits 5 s; in these there are fewer attempts
 OnMessage = typing.Callable[[Message], None]
 
 
-async def connect(url: str, *, client: str | None = None, window: int = 2, timeout: float = 5.0,
+async def connect(url: str, *, client: str | None = None, window: int = 2, coarser: bool = False, timeout: float = 5.0,
                   on_message: OnMessage | None = None, token: str | None = None, tls: ssl.SSLContext | None = None,
                   reconnect: bool = False) -> Client:
     """Connects to a scene, ws://HOST:PORT/v1/scenes/NAME or wss://: done when the server has greeted, described the scene,
@@ -32,6 +33,7 @@ async def connect(url: str, *, client: str | None = None, window: int = 2, timeo
     client      name told to the server
     window      unacknowledged frames, 1..8, beside those that the way has room for; 0: no flow control, the server sends as
                 fast as it can
+    coarser     cloths may be sent at coarser levels than the camera asks for, where the link carries too few frames
     timeout     s to wait for the connection, and for each reply
     on_message  called with each message that answers no request: `welcome`, `scene`, `event`, `stats`, `curve`,
                 `notice`, `error`
@@ -41,7 +43,8 @@ async def connect(url: str, *, client: str | None = None, window: int = 2, timeo
                 the same camera, with what this client held if that is within 5 s. Frames go on; what is sent meanwhile fails
                 with code `closed`
     """
-    hello = {"client": client, "caps": ["flow.ack"] if window else [], "window": window or None} if window or client else None
+    caps = (["flow.ack"] if window else []) + (["flow.level"] if coarser else [])
+    hello = {"client": client, "caps": caps, "window": window or None} if caps or client else None
     connection = Client(url, timeout, on_message, Transport(token, tls), hello, reconnect)
     try:
         await connection._open()
@@ -73,7 +76,7 @@ class Client(Commands):
         self._greeted_once = False
         self._returning: asyncio.Task[None] | None = None  # while the connection is made again
         self._camera: Message = {}        # as it was told last
-        self._before: Message = {}        # the `scene` before the connection broke
+        self._before: typing.List[Message] = []  # `scene` of connections that broke, by whose seats what it holds may be had
         self._held: typing.Set[int] = set()  # ids of grabs that this client has not let go of
 
     async def __aenter__(self) -> Client:
@@ -173,7 +176,8 @@ class Client(Commands):
 
     async def _open(self) -> None:
         """Connects: greeted, the scene described, `hello` answered, and where it was before as far as that can be."""
-        self._before = self.scene or self._before
+        # One that breaks before it has taken over what an older one held is only the next to be asked for.
+        self._before = [*self._before, *([self.scene] if self.scene.get("seat") else [])][-_MOST_SEATS:] if self._held else []
         self.welcome, self.scene, self._lost, self._acks = {}, {}, None, False
         self._clock = ServerClock()
         self._newest = None  # of the connection before
@@ -189,9 +193,7 @@ class Client(Commands):
         if self._camera:
             with contextlib.suppress(WeftError):  # refused then, it is refused now
                 await self.send("camera", **self._camera)
-        before, self._before = self._before, {}
-        if self._held and before.get("seat") and before["name"] == self.scene["name"]:
-            await self._resume(before["seat"])
+        await self._resume()
         if self._lost:  # broken again meanwhile
             raise self._lost
 
@@ -202,12 +204,19 @@ class Client(Commands):
         if self._lost:
             raise self._lost
 
-    async def _resume(self, seat: str) -> None:
+    async def _resume(self) -> None:
         """Takes over what this client held before its connection broke, and lets go of what it let go of meanwhile."""
-        try:
-            grabs = set((await self.resume_seat(seat))["grabs"])
-        except WeftError:  # too late: all is released
-            grabs = set()
+        grabs: typing.Set[int] = set()
+        for before in self._before:
+            if before["name"] != self.scene["name"]:
+                continue
+            try:
+                grabs = set((await self.resume_seat(before["seat"]))["grabs"])
+            except WeftError as error:
+                if error.code in ("closed", "timeout"):  # broken again: it is asked for once more
+                    raise
+                # Else it is too late, and all is released.
+        self._before = []
         for grab in grabs - self._held:
             await self.post("grab.release", grab=grab)
         self._held &= grabs

@@ -39,7 +39,8 @@ class SyncCommands(abc.ABC):
                half_angle: float | None = None) -> Message:
         """Tells where this viewer's camera is. Decides the level of each cloth (Eq. 7) for this viewer and, with
         `target` and `half_angle`, what it has in sight: all within that angle of the line from the eye to the target.
-        Without them it sees in every direction.
+        Without them it sees in every direction. With them the viewer is taken to draw a picture, and is sent positions
+        as exact as that shows (section 4); without them as exact as can be.
 
         distance: from the cloths, 0..1e6 m
         eye: where the camera is, m
