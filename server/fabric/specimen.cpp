@@ -10,10 +10,10 @@
 namespace weft::fabric {
 namespace {
 
-/// Solved far below what an instrument reads; nothing is given back to a motion that is to end.
-BackwardEulerDescription to_rest() {
+/// Nothing is given back to a motion that is to end.
+BackwardEulerDescription to_rest(double tolerance) {
   BackwardEulerDescription solver;
-  solver.tolerance = 1e-6;
+  solver.tolerance = tolerance;
   solver.newton_iterations = 3;
   solver.linear_iterations = 1000;
   solver.liveliness = 0;
@@ -48,7 +48,7 @@ Specimen::Specimen(const SpecimenPlan& plan)
     : particles_(Grid::with_nodes(plan.rows, plan.cols)),
       springs_(plan.material, Discretization::continuum, plan.size, particles_.grid(), 0, plan.limited),
       effects_(make_effects<double>(effects_of(plan))),
-      integrator_(make_integrator<double>(to_rest())) {
+      integrator_(make_integrator<double>(to_rest(plan.tolerance))) {
   cloth_.size = plan.size;
   cloth_.material = plan.material;
   const double hx = plan.size.x() / (plan.cols - 1), hz = plan.size.y() / (plan.rows - 1);
@@ -87,21 +87,25 @@ Forces<double> Specimen::forces(double time) const {
   return {&springs_, &effects_, {&cloth_, &calm_, time}, nullptr, plate_ ? &*plate_ : nullptr};
 }
 
-void Specimen::rest(double step, double still, int most) {
+double Specimen::advance(double step) {
+  const VectorField<double> before = particles_.position;
+  if (!integrator_->advance(particles_, forces(time_), nullptr, no_solids_, time_, step).sound)
+    throw NoRest("the specimen has no next state");
+  time_ += step;
   double way = 0;
-  for (int n = 0; n < most; ++n) {
-    const VectorField<double> before = particles_.position;
-    if (!integrator_->advance(particles_, forces(n * step), nullptr, no_solids_, n * step, step).sound)
-      throw NoRest("the specimen has no next state");
-    way = 0;
-    for_each_node(grid(), [&](int r, int c) {
-      const Vec3 moved = at(r, c) - Vec3(before.x.at(r, c), before.y.at(r, c), before.z.at(r, c));
-      way = std::max(way, moved.norm());
-    });
-    if (way < still) return;
-  }
-  throw NoRest("the specimen moves still, " + std::to_string(way * 1e3) + " mm a step, after " +
-               std::to_string(most) + " steps");
+  for_each_node(grid(), [&](int r, int c) {
+    const Vec3 moved = at(r, c) - Vec3(before.x.at(r, c), before.y.at(r, c), before.z.at(r, c));
+    way = std::max(way, moved.norm());
+  });
+  return way;
+}
+
+void Specimen::rest(double step, double still, int most) {
+  double way = still;
+  for (int n = 0; n < most && way >= still; ++n) way = advance(step);
+  if (way >= still)
+    throw NoRest("the specimen moves still, " + std::to_string(way * 1e3) + " mm a step, after " +
+                 std::to_string(most) + " steps");
 }
 
 VectorField<double> Specimen::pull() const {

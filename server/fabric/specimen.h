@@ -18,11 +18,12 @@ class NoRest : public std::runtime_error {
 
 struct SpecimenPlan {
   Material material;
-  Vec2 size{0, 0};         ///< along u and v, m
-  int rows = 0, cols = 0;  ///< nodes
-  double gravity = 0;      ///< m/s2, downwards
-  bool bends = true;       ///< resists bending by the material's rigidity
-  bool limited = false;    ///< threads are pulled straight at the material's limit (StrainLimitEffect)
+  Vec2 size{0, 0};          ///< along u and v, m
+  int rows = 0, cols = 0;   ///< nodes
+  double gravity = 0;       ///< m/s2, downwards
+  bool bends = true;        ///< resists bending by the material's rigidity
+  bool limited = false;     ///< threads are pulled straight at the material's limit (StrainLimitEffect)
+  double tolerance = 1e-4;  ///< of each step (ImplicitParameters)
   /// Which nodes an instrument holds, and which there are; nullptr: all.
   std::function<bool(int r, int c)> held = nullptr, there = nullptr;
 };
@@ -42,7 +43,10 @@ class Specimen {
   /// The face right of and below node (r, c) has all its corners.
   bool face_there(int r, int c) const;
 
-  /// Steps of `step` seconds by backward Euler, which damps, until no node moves farther than `still` in one,
+  /// A step of so many seconds by backward Euler, which damps; how far the node moved that moved farthest, m.
+  /// Throws NoRest if there is no next state.
+  double advance(double step);
+  /// Steps of `step` seconds until no node moves farther than `still` in one,
   /// m; at most `most`. Throws NoRest if it moves still.
   void rest(double step, double still, int most);
   /// What the springs do to every node, N, those that are held included.
@@ -63,6 +67,7 @@ class Specimen {
   std::unique_ptr<Integrator<double>> integrator_;
   std::vector<Solid> no_solids_;
   std::vector<char> there_;
+  double time_ = 0;  ///< s
 };
 
 /// The material with warp and weft changed over: what a strip of the weft is, laid along u.

@@ -48,7 +48,9 @@ TEST(MaterialParameters, HaveTheSchemasNamesAndRanges) {
     SCOPED_TRACE(parameter.name);
     json schema = schema_of_number(parameter.name);
     if (schema.contains("oneOf")) {
-      if (parameter.count > 1) EXPECT_EQ(schema.at("oneOf").at(1).at("minItems"), parameter.count);
+      if (parameter.count > 1) {
+        EXPECT_EQ(schema.at("oneOf").at(1).at("minItems"), parameter.count);
+      }
       schema = schema.at("oneOf").at(0);
     }
     EXPECT_EQ(json(parameter.range.min), schema.at("minimum"));
