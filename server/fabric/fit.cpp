@@ -1,7 +1,9 @@
 #include "fabric/fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,51 +15,6 @@
 namespace weft::fabric {
 namespace {
 
-/// The drape's coefficient rises with what resists bending, from `least` to `most` N m.
-class DrapeSearch {
- public:
-  DrapeSearch(const Numbers& numbers, Material& material, int cells)
-      : wanted_(*numbers.drape),
-        twist_alone_(numbers.bending_length_warp.has_value() || numbers.bending_length_weft.has_value()),
-        cells_(cells),
-        material_(material) {}
-
-  /// Leaves the material as found; returns its drape.
-  double run() {
-    double low = twist_alone_ ? 1e-8 : 1e-7, high = twist_alone_ ? 1e-3 : 1e-2;
-    double at_low = drape_of(low), at_high = drape_of(high);
-    if (wanted_ < at_low || wanted_ > at_high) {
-      char text[160];
-      std::snprintf(text, sizeof text, "drape is %g; %s can be from %.3f to %.3f", wanted_,
-                    twist_alone_ ? "with these bending lengths and this density it" : "with this density it",
-                    at_low, at_high);
-      throw NoFit(text);
-    }
-    constexpr double kAsRead = 0.005;  // two tests of one cloth differ by more
-    constexpr int kMost = 20;
-    double found = at_low;
-    for (int n = 0; n < kMost; ++n) {
-      const double middle = std::sqrt(low * high);
-      found = drape_of(middle);
-      if (std::abs(found - wanted_) < kAsRead) break;
-      (found < wanted_ ? low : high) = middle;
-    }
-    return found;
-  }
-
- private:
-  double drape_of(double rigidity) {
-    if (!twist_alone_) material_.rigidity.u = material_.rigidity.v = rigidity;
-    material_.rigidity.twist = rigidity;
-    return drape(material_, cells_).coefficient;
-  }
-
-  double wanted_;
-  bool twist_alone_;
-  int cells_;
-  Material& material_;
-};
-
 double stiffness_along(const char* name, double extension, double shear) {
   const double stiffness = stiffness_of(extension, shear);
   if (stiffness > 0) return stiffness;
@@ -65,6 +22,84 @@ double stiffness_along(const char* name, double extension, double shear) {
   std::snprintf(text, sizeof text, "%s is %g; with a shear_stiffness of %g N/m it must be less than %g", name,
                 extension, shear, kLargestLoad / shear);
   throw NoFit(text);
+}
+
+/// All that follows from a formula; what was not measured is the default's.
+Material by_formula(const Numbers& numbers) {
+  Material material;
+  material.density = numbers.density;
+  if (numbers.shear_stiffness) material.shear = *numbers.shear_stiffness;
+  const auto either = [](const std::optional<double>& one, const std::optional<double>& other) {
+    return one ? one : other;
+  };
+  const auto emt_warp = either(numbers.emt_warp, numbers.emt_weft);
+  const auto emt_weft = either(numbers.emt_weft, numbers.emt_warp);
+  if (emt_warp && emt_weft) {
+    material.structural = {stiffness_along("emt_warp", *emt_warp, material.shear),
+                           stiffness_along("emt_weft", *emt_weft, material.shear)};
+    material.bending = (material.structural.warp + material.structural.weft) / 2000;  // as the named fabrics'
+  }
+  const auto warp = either(numbers.bending_length_warp, numbers.bending_length_weft);
+  const auto weft = either(numbers.bending_length_weft, numbers.bending_length_warp);
+  if (warp && weft) {
+    Rigidity& rigidity = material.rigidity;
+    rigidity.u = rigidity_of(*warp, numbers.density);
+    rigidity.v = rigidity_of(*weft, numbers.density);
+    rigidity.twist = std::sqrt(rigidity.u * rigidity.v);  // Peirce's overall rigidity
+  }
+  return material;
+}
+
+/// What a drape is found by: the material with so much of what was not measured.
+struct Unknown {
+  const char* name;
+  double least, most;
+  std::function<Material(double)> material;
+};
+
+Unknown unknown_of(const Numbers& numbers) {
+  if (!numbers.bending_length_warp && !numbers.bending_length_weft) {
+    return {"rigidity", 1e-7, 1e-2, [=](double rigidity) {
+              Material material = by_formula(numbers);
+              material.rigidity = {rigidity, rigidity, rigidity};
+              return material;
+            }};
+  }
+  const double largest_emt = std::max(numbers.emt_warp.value_or(0), numbers.emt_weft.value_or(0));
+  const double most = largest_emt > 0 ? std::min(1e4, 0.9 * kLargestLoad / largest_emt) : 1e4;
+  return {"shear", 1, most, [=](double shear) {
+            Numbers all = numbers;
+            all.shear_stiffness = shear;
+            return by_formula(all);
+          }};
+}
+
+/// The coefficient rises with the unknown: bisection of its logarithm.
+Fit by_drape(const Numbers& numbers, int cells) {
+  const double wanted = *numbers.drape;
+  const Unknown unknown = unknown_of(numbers);
+  const auto tried = [&](double value) {
+    const Material material = unknown.material(value);
+    return Fit{material, drape(material, cells).coefficient};
+  };
+  double low = unknown.least, high = unknown.most;
+  const Fit limp = tried(low), stiff = tried(high);
+  if (wanted < *limp.drape || wanted > *stiff.drape) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "drape is %g; with the other numbers it is %.3f at a %s of %g and %.3f at %g", wanted,
+                  *limp.drape, unknown.name, low, *stiff.drape, high);
+    throw NoFit(text);
+  }
+  constexpr double kAsRead = 0.005;  // two tests of one cloth differ by more
+  constexpr int kMost = 20;
+  Fit found = limp;
+  for (int n = 0; n < kMost && std::abs(*found.drape - wanted) >= kAsRead; ++n) {
+    const double middle = std::sqrt(low * high);
+    found = tried(middle);
+    (*found.drape < wanted ? low : high) = middle;
+  }
+  return found;
 }
 
 }  // namespace
@@ -93,29 +128,10 @@ std::variant<Numbers, std::vector<scene::Problem>> read_numbers(const nlohmann::
 }
 
 Fit fit(const Numbers& numbers, int drape_cells) {
-  Fit result;
-  Material& material = result.material;
-  material.density = numbers.density;
-  if (numbers.shear_stiffness) material.shear = *numbers.shear_stiffness;
-  const auto of_both = [](const std::optional<double>& one, const std::optional<double>& other) {
-    return one ? one : other;
-  };
-  const auto emt_warp = of_both(numbers.emt_warp, numbers.emt_weft);
-  const auto emt_weft = of_both(numbers.emt_weft, numbers.emt_warp);
-  if (emt_warp && emt_weft) {
-    material.structural = {stiffness_along("emt_warp", *emt_warp, material.shear),
-                           stiffness_along("emt_weft", *emt_weft, material.shear)};
-    material.bending = (material.structural.warp + material.structural.weft) / 2000;  // as the named fabrics'
-  }
-  const auto warp = of_both(numbers.bending_length_warp, numbers.bending_length_weft);
-  const auto weft = of_both(numbers.bending_length_weft, numbers.bending_length_warp);
-  if (warp && weft) {
-    Rigidity& rigidity = material.rigidity;
-    rigidity.u = rigidity_of(*warp, numbers.density);
-    rigidity.v = rigidity_of(*weft, numbers.density);
-    rigidity.twist = std::sqrt(rigidity.u * rigidity.v);  // Peirce's overall rigidity
-  }
-  if (numbers.drape) result.drape = DrapeSearch(numbers, material, drape_cells).run();
+  const bool bent = numbers.bending_length_warp || numbers.bending_length_weft;
+  if (numbers.drape && !(bent && numbers.shear_stiffness)) return by_drape(numbers, drape_cells);
+  Fit result{by_formula(numbers), {}};
+  if (numbers.drape) result.drape = drape(result.material, drape_cells).coefficient;
   return result;
 }
 
@@ -125,8 +141,8 @@ nlohmann::json block_of(const Numbers& numbers, const Material& material) {
     block["structural"] = {material.structural.warp, material.structural.weft};
     block["bending"] = material.bending;
   }
-  if (numbers.shear_stiffness) block["shear"] = material.shear;
-  if (numbers.bending_length_warp || numbers.bending_length_weft || numbers.drape)
+  if (numbers.shear_stiffness || material.shear != Material{}.shear) block["shear"] = material.shear;
+  if (material.rigidity != Material{}.rigidity)
     block["rigidity"] = {material.rigidity.u, material.rigidity.v, material.rigidity.twist};
   return block;
 }

@@ -34,12 +34,13 @@ struct Fit {
   std::optional<double> drape;  ///< of this material, if one was asked for
 };
 
-/// Rigidity G = density g c^3, stiffness 490 N/m / EMT - G of shear, shear as measured. A drape is found by
-/// simulating it: with bending lengths by the rigidity of the twist, else by the rigidity of all directions.
+/// Rigidity G = density g c^3, stiffness 490 N/m / EMT - G of shear, shear as measured. A drape tells what
+/// was not measured, by simulation: without bending lengths the rigidity, alike in all directions, else the
+/// shear stiffness. Where both were measured it tells nothing more and is simulated to be compared.
 /// `drape_cells` as in drape(). Throws NoFit and NoRest.
 Fit fit(const Numbers& numbers, int drape_cells);
 
-/// The material's block of a scene file: what the numbers say.
+/// The material's block of a scene file: what is not the default's.
 nlohmann::json block_of(const Numbers& numbers, const Material& material);
 
 }  // namespace weft::fabric

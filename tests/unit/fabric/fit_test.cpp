@@ -71,6 +71,31 @@ TEST(FitsNightly, FindTheRigidityThatDrapesSo) {
   EXPECT_EQ(found.material.rigidity.u, found.material.rigidity.twist);
 }
 
+// Cusick 1965: drape follows from bending and shear; of a known bending the shear is what is left.
+TEST(FitsNightly, FindTheShearThatDrapesSo) {
+  Numbers numbers = read({{"density", 0.2}, {"emt_warp", 0.05}, {"bending_length_warp", 0.02}});
+  numbers.shear_stiffness = 60;
+  const double coefficient = drape(fit(numbers, 16).material, 32).coefficient;
+  numbers.shear_stiffness.reset();
+  numbers.drape = coefficient;
+  const Fit found = fit(numbers, 32);
+  EXPECT_NEAR(*found.drape, coefficient, 0.005);
+  EXPECT_NEAR(found.material.shear / 60, 1, 0.25);
+}
+
+TEST(Fits, CompareADrapeWhereNothingIsLeftToFind) {
+  Numbers numbers =
+      read({{"density", 0.2}, {"bending_length_warp", 0.02}, {"shear_stiffness", 50}, {"drape", 0.99}});
+  const Fit found = fit(numbers, 16);
+  EXPECT_EQ(*found.drape, drape(found.material, 16).coefficient);
+  EXPECT_EQ(found.material.shear, 50);
+}
+
+TEST(Fits, RefuseADrapeThatNoRigidityGives) {
+  const Numbers numbers = read({{"density", 0.2}, {"drape", 0.01}});
+  EXPECT_THROW(fit(numbers, 16), NoFit);
+}
+
 TEST(Fits, WithoutTheWeftsNumbersTakeTheWarps) {
   const Material found =
       fit(read({{"density", 0.1}, {"emt_warp", 0.05}, {"bending_length_weft", 0.02}}), 16).material;
