@@ -44,8 +44,8 @@ Scenes simpler_than(const SimulationDescription& scene) {
   cloth([](auto& c) { c.sewn = false; });
   cloth([&](auto& c) { c.size = plain.size; });
   cloth([&](auto& c) { c.size.y() = c.size.x(); });
-  for (double Material::*constant : {&Material::density, &Material::shear, &Material::bending,
-                                     &Material::damping}) {
+  for (double Material::*constant :
+       {&Material::density, &Material::shear, &Material::bending, &Material::damping}) {
     cloth([&](auto& c) { c.material.*constant = plain.material.*constant; });
   }
   cloth([&](auto& c) { c.material.structural = plain.material.structural; });
