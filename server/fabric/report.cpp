@@ -113,9 +113,8 @@ std::string table(const std::vector<Reading>& readings) {
     text += reading.seconds > 0 ? text_of("%7.2f s\n", reading.seconds) : "\n";
     if (!reading.value) text += "    " + reading.why + "\n";
     for (const Published& each : reading.published) {
-      text +=
-          text_of("    measured %s, %+.0f %%%s: ", range_of(each).c_str(),
-                  100 * deviation(reading.value.value_or(0), each), each.same_cloth ? "" : ", like cloth");
+      text += text_of("    measured %s, %+.0f %%%s: ", range_of(each).c_str(),
+                      100 * deviation(*reading.value, each), each.same_cloth ? "" : ", like cloth");
       text += std::string(each.source) + "\n";
     }
   }
@@ -135,7 +134,7 @@ nlohmann::json json_of(const std::vector<Reading>& readings) {
     for (const Published& each : reading.published) {
       one["measured"].push_back({{"range", {each.low, each.high}},
                                  {"same_cloth", each.same_cloth},
-                                 {"deviation", deviation(reading.value.value_or(0), each)},
+                                 {"deviation", deviation(*reading.value, each)},
                                  {"source", each.source}});
     }
   }

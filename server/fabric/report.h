@@ -13,10 +13,10 @@ namespace weft::fabric {
 struct Reading {
   std::string name;  ///< of the quantity, or of one that nobody has published
   std::string unit;
-  std::optional<double> value;  ///< nothing where the instrument finds no rest
-  std::string why;              ///< it found none
-  std::vector<Published> published;
-  double seconds = 0;  ///< that the instrument took
+  std::optional<double> value;       ///< nothing where the instrument finds no rest
+  std::string why;                   ///< it found none
+  std::vector<Published> published;  ///< none without a value
+  double seconds = 0;                ///< that the instrument took
 };
 
 /// Runs every instrument. `fabric` names what published() is asked for; empty: nothing. `drape_cells` as in
