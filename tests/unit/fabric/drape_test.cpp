@@ -49,7 +49,7 @@ TEST(CusicksDrape, ABoardDoesNotDrape) {
 }
 
 // Cusick 1965: the stiffer, the larger the coefficient, from about 0.3 of limp cloth.
-TEST(CusicksDrape, StifferClothCastsALargerShadow) {
+TEST(CusicksDrape, StifferClothCastsALargerShadowSlow) {
   const double limp = drape(cloth(3e-6), 32).coefficient, middle = drape(cloth(3e-5), 32).coefficient,
                stiff = drape(cloth(3e-4), 32).coefficient;
   EXPECT_GT(limp, 0.2);

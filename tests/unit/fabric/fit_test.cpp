@@ -42,7 +42,7 @@ Material known() {
 }
 
 // Each instrument reads within 2 % (length, shear 4 %), the rigidity goes with the third power of a length.
-TEST(Fits, GiveBackWhatWasTested) {
+TEST(Fits, GiveBackWhatWasTestedSlow) {
   const Material tested = known();
   const Numbers numbers = read({{"density", 0.2},
                                 {"emt_warp", tensile(tested, false).extension},
