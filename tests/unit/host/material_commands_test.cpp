@@ -96,6 +96,15 @@ TEST_F(MaterialCommands, AreToldToAllAndTakeEffectInTheNextStep) {
   EXPECT_EQ(live.studied().cloths[0].material.limit.warp, 0.5);
 }
 
+TEST_F(MaterialCommands, SetTheWeftAloneAndItsShareStays) {
+  command(ClothTune{0, {{"structural_weft", {50}}}});
+  EXPECT_EQ(other.last("event", "cloth.tune").at("material").at("structural"), 200);
+  command(ClothTune{0, {{"structural", {400}}}});
+  EXPECT_EQ(other.last("event", "cloth.tune").at("material").at("structural_weft"), 100);
+  live.step();
+  EXPECT_EQ(live.simulation().cloths()[0].description().material.structural, Stiffness(400, 100));
+}
+
 TEST_F(MaterialCommands, OfManyBeforeAStepTheLastCounts) {
   for (int i = 1; i <= 50; ++i) command(ClothTune{0, {{"damping", {0.1 * i}}}});
   scene::Scene slow = cloth_on_things();
