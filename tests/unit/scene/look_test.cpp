@@ -25,8 +25,8 @@ TEST(Looks, AreAsTheSceneSays) {
 // Each named fabric has a weave, whether the material is its name or begins with it.
 TEST(Looks, FollowTheFabric) {
   const std::vector<std::pair<std::string, std::string>> weaves = {
-      {"silk", "satin"}, {"cotton", "plain"}, {"canvas", "canvas"}, {"denim", "twill"},
-      {"wool", "wool"}, {"polyester", "plain"}, {"stretch_wool", "twill"}};
+      {"silk", "satin"}, {"cotton", "plain"},    {"canvas", "canvas"},     {"denim", "twill"},
+      {"wool", "wool"},  {"polyester", "plain"}, {"stretch_wool", "twill"}};
   ASSERT_EQ(weaves.size(), fabrics().size());
   for (const auto& [fabric, weave] : weaves) {
     SCOPED_TRACE(fabric);

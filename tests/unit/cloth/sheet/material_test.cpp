@@ -29,7 +29,8 @@ TEST(Fabrics, HaveValuesOfRealCloth) {
     EXPECT_GE(m.structural.least(), 50) << fabric.name;
     EXPECT_LE(m.structural.most(), 1e5) << fabric.name;
     EXPECT_GT(m.shear, 0) << fabric.name;
-    EXPECT_LT(m.shear, m.structural.least()) << fabric.name << ": woven cloth shears more easily than it stretches";
+    EXPECT_LT(m.shear, m.structural.least())
+        << fabric.name << ": woven cloth shears more easily than it stretches";
     EXPECT_GT(m.bending, 0) << fabric.name;
     EXPECT_LT(m.bending, m.structural.least()) << fabric.name << ": and bends more easily still";
     EXPECT_GE(m.damping, 0) << fabric.name;
