@@ -41,14 +41,14 @@ Material cloth(double rigidity) {
   return material;
 }
 
-// A board sags by q b^4 / D of 0.004 at most (Roark, annular plates, outer edge free), 1e-4 of the shadow.
+// 1.47 Pa on a ring of 6 cm and 1 N m: q b^4 / D is 2e-5 m.
 TEST(CusicksDrape, ABoardDoesNotDrape) {
   const Drape board = drape(cloth(1), 16);
   EXPECT_NEAR(board.coefficient, 1, 0.01);
   EXPECT_EQ(board.folds, 0);
 }
 
-// Cusick 1965: the stiffer, the larger the coefficient, from about 0.3 of limp cloth.
+// Drape follows from bending stiffness (Cusick 1965).
 TEST(CusicksDrape, StifferClothCastsALargerShadowSlow) {
   const double limp = drape(cloth(3e-6), 32).coefficient, middle = drape(cloth(3e-5), 32).coefficient,
                stiff = drape(cloth(3e-4), 32).coefficient;
@@ -64,7 +64,7 @@ TEST(CusicksDrape, IsTheSameEachTime) {
   EXPECT_EQ(first.folds, second.folds);
 }
 
-// Cloth folds: 4 to 9 of them on most apparel cloth (Cusick 1968).
+// 5 to 8 folds on 37 woven fabrics (Fibres and Textiles 1/2018, at second hand), and some more of limp cloth.
 TEST(CusicksDrapeNightly, ClothFoldsRoundTheDisc) {
   const Drape folded = drape(cloth(1e-5), 64);
   EXPECT_GE(folded.folds, 4);

@@ -41,7 +41,7 @@ Material known() {
   return material;
 }
 
-// Each instrument reads within 2 % (length, shear 4 %), the rigidity goes with the third power of a length.
+// The shear test reads 4 % less at most (its free sides), the others are within 1 %.
 TEST(Fits, GiveBackWhatWasTestedSlow) {
   const Material tested = known();
   const Numbers numbers = read({{"density", 0.2},
@@ -55,8 +55,8 @@ TEST(Fits, GiveBackWhatWasTestedSlow) {
   EXPECT_NEAR(found.structural.warp / 9000, 1, 0.01);
   EXPECT_NEAR(found.structural.weft / 4000, 1, 0.01);
   EXPECT_NEAR(found.shear / 50, 1, 0.04);
-  EXPECT_NEAR(found.rigidity.u / 2e-5, 1, 0.06);
-  EXPECT_NEAR(found.rigidity.v / 8e-6, 1, 0.06);
+  EXPECT_NEAR(found.rigidity.u / 2e-5, 1, 0.01);
+  EXPECT_NEAR(found.rigidity.v / 8e-6, 1, 0.01);
 }
 
 // 20 % in rigidity are less than a fiftieth in the coefficient of this cloth.
