@@ -7,6 +7,7 @@ namespace weft::cli {
 void add_serve(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_cost(CLI::App& app, int& exit_code);
+void add_fabric(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);

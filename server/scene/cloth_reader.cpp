@@ -20,6 +20,18 @@ const Fabric* read_fabric(const json& value, const std::string& path, Report& re
   return fabric;
 }
 
+/// One number for both, or [warp, weft].
+void read_structural(Object& material, Stiffness& structural) {
+  const json* value = material.find("structural");
+  Vec2 read(structural.warp, structural.weft);
+  if (value && value->is_array()) {
+    material.vector("structural", read, kStiffness);
+  } else if (double both = 0; material.number("structural", both, kStiffness)) {
+    read.setConstant(both);
+  }
+  structural = {read[0], read[1]};
+}
+
 /// One number for all three, or [u, v, twist].
 void read_rigidity(Object& material, Rigidity& rigidity) {
   const json* value = material.find("rigidity");
@@ -53,7 +65,7 @@ Material read_material(const json& value, const std::string& path, Report& repor
     if (const Fabric* fabric = read_fabric(*name, object.path("fabric"), report)) material = fabric->material;
   }
   object.number("density", material.density, kDensity);
-  object.number("structural", material.structural, kStiffness);
+  read_structural(object, material.structural);
   object.number("shear", material.shear, kStiffness);
   object.number("bending", material.bending, kStiffness);
   object.number("damping", material.damping, kDamping);

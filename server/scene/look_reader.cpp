@@ -25,12 +25,14 @@ struct Default {
 
 /// The threads are thicker than real ones, so that they show. Of a weave that stands twice, the first is
 /// meant.
-constexpr std::array<Default, 8> kDefaults{{
+constexpr std::array<Default, 10> kDefaults{{
     {"silk", "satin", "#b3263c", "#b3263c", 0.001},
     {"cotton", "plain", "#e9e4d8", "#e9e4d8", 0.002},
     {"canvas", "canvas", "#cdbf9f", "#cdbf9f", 0.004},
     {"denim", "twill", "#24406e", "#c9cdd3", 0.003},
     {"wool", "wool", "#6d6258", "#6d6258", 0.006},
+    {"polyester", "plain", "#7d97ad", "#7d97ad", 0.002},
+    {"stretch_wool", "twill", "#3d4048", "#5a5e68", 0.003},
     {"", "knit", "#8f3f3a", "#8f3f3a", 0.012},
     {"", "leather", "#7a4a2a", "#7a4a2a", 0.008},
     {"", "paper", "#f4f1e8", "#f4f1e8", 0.002},

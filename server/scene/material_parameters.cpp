@@ -27,6 +27,27 @@ MaterialParameter of_limit(const char* name, const Range& range) {
           StrainLimitEffect::kName};
 }
 
+/// The warp's; the weft's keeps its share of it.
+MaterialParameter structural() {
+  return {{{"structural", 1, kStiffness},
+           [](const Material& material) { return Values{material.structural.warp}; },
+           [](Material& material, const Values& values) {
+             auto& [warp, weft] = material.structural;
+             if (warp == weft) {
+               weft = values[0];
+             } else if (warp > 0) {
+               weft = std::min(weft * (values[0] / warp), kStiffness.max);
+             }
+             warp = values[0];
+           }}};
+}
+
+MaterialParameter structural_weft() {
+  return {{{"structural_weft", 1, kStiffness},
+           [](const Material& material) { return Values{material.structural.weft}; },
+           [](Material& material, const Values& values) { material.structural.weft = values[0]; }}};
+}
+
 MaterialParameter rigidity() {
   return {{{"rigidity", 3, kRigidity, true},
            [](const Material& material) {
@@ -43,7 +64,8 @@ MaterialParameter rigidity() {
 
 std::vector<MaterialParameter> material_parameters(const std::vector<EffectDescription>& effects) {
   static const std::vector<MaterialParameter> all{
-      of_material<&Material::structural>("structural", kStiffness),
+      structural(),
+      structural_weft(),
       of_material<&Material::shear>("shear", kStiffness),
       of_material<&Material::bending>("bending", kStiffness),
       of_material<&Material::damping>("damping", kDamping, DampingEffect::kName),

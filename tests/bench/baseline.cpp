@@ -82,8 +82,8 @@ void Baseline<Real>::connect(int rows, int cols, const ClothDescription& cloth) 
   };
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
-      add(r, c, 0, 1, cloth.material.structural);
-      add(r, c, 1, 0, cloth.material.structural);
+      add(r, c, 0, 1, cloth.material.structural.warp);
+      add(r, c, 1, 0, cloth.material.structural.weft);
       add(r, c, 1, 1, cloth.material.shear);
       add(r, c, 1, -1, cloth.material.shear);
       add(r, c, 0, 2, cloth.material.bending);

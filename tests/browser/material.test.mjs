@@ -92,7 +92,7 @@ test('the numbers of each cloth’s material unfold by the keyboard, with the ra
   const fields = await page.$$eval('#material input[type=number]', (inputs) =>
     inputs.map((input) => [input.labels[0].textContent, Number(input.value), Number(input.min), Number(input.max)]));
   assert.deepEqual(fields, [
-    ['Stiffness along the threads N/m', 100, 0, 1e9], ['Stiffness to shear N/m', 10, 0, 1e9], ['Stiffness to bending N/m', 0.01, 0, 1e9],
+    ['Stiffness along the threads N/m', 100, 0, 1e9], ['Stiffness along v N/m', 100, 0, 1e9], ['Stiffness to shear N/m', 10, 0, 1e9], ['Stiffness to bending N/m', 0.01, 0, 1e9],
     ['Damping', 0.3, 0, 1e6], ['Rigidity along u N m', 1e-5, 0, 1e4], ['Rigidity along v N m', 2e-5, 0, 1e4], ['Rigidity of the twist N m', 3e-5, 0, 1e4]]);
   assert.equal(await page.locator('#material').getByRole('slider', {name: /, slider$/}).count(), fields.length);
 });
@@ -143,7 +143,7 @@ test('a scene of one cloth has no choice, and without balls and obstacles no fri
   await until(page, () => weft.stats.scene === 'flag');
   assert.equal(await page.isVisible('#material-cloth'), false);
   assert.equal(await page.textContent('#material-name'), 'flag');
-  assert.deepEqual(Object.keys((await stats(page)).materials[0]).sort(), ['bending', 'damping', 'shear', 'structural']);
+  assert.deepEqual(Object.keys((await stats(page)).materials[0]).sort(), ['bending', 'damping', 'shear', 'structural', 'structural_weft']);
   await until(page, () => weft.stats.balls.length === 0);
   assert.equal(await page.isVisible('#ball-friction-number'), false);
 });

@@ -167,7 +167,7 @@ Case sized(std::string name, std::string what, double size) {
     const SimulationDescription hung = scene(setup);
     const Material& material = hung.cloths[0].material;
     Expectation expect;
-    const double at_rest = material.density * kGravity * size / material.structural;  // at the top
+    const double at_rest = material.density * kGravity * size / material.structural.weft;  // at the top
     expect.stretch = 0.01 + 1.01 * at_rest;
     expect.excess = xpbd_excess(hung, setup, mass_of(hung.cloths[0]) * kGravity / (1 << setup.level));
     expect.stretch_from = std::max(0.8, 0.8 * seconds);

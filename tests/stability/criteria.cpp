@@ -131,7 +131,8 @@ EnergyBound energy_bound(const Simulation<float>& simulation, const Setup& setup
     const Particles<float>& state = cloth.particles();
     // Single precision gives any sheet a strain of its own.
     const ClothDescription& made = cloth.description();
-    const double stiffness = made.material.structural + made.material.shear + 4 * made.material.bending;
+    const double stiffness =
+        made.material.structural.most() + made.material.shear + 4 * made.material.bending;
     rounding += stiffness * made.size.x() * made.size.y() * kRoundingStrain * kRoundingStrain / 2;
     // Held by an edge it falls by its height, and back up on the other side.
     const double fall = cloth.description().size.norm();

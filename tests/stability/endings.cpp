@@ -31,7 +31,7 @@ Ending hangs_flat(double share) {
     const int cells = state.grid().rows - 1, across = state.grid().cols - 1;
     const double length = cloth.size.y(), width = cloth.size.x();
     const double stretch = cloth.material.density * simulation.gravity().norm() * length * length /
-                               (2 * cloth.material.structural) +
+                               (2 * cloth.material.structural.weft) +
                            xpbd_stretch(simulation, cells);
     double farthest = 0;
     const Vec3 top = state.position_at(0, 0);

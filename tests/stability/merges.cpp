@@ -25,8 +25,8 @@ Simulation<float> at_rest(const Simulation<float>& simulation) {
   for (const EffectDescription& effect : simulation.description().effects) {
     if (std::holds_alternative<StrainLimitEffect>(effect)) scene.effects.push_back(effect);
   }
-  scene.time_step =
-      kCrossings * cloth.size.maxCoeff() * std::sqrt(cloth.material.density / cloth.material.structural);
+  scene.time_step = kCrossings * cloth.size.maxCoeff() *
+                    std::sqrt(cloth.material.density / cloth.material.structural.least());
   scene.cloths = {cloth};
   BackwardEulerDescription method;
   method.newton_iterations = 4;

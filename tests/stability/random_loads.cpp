@@ -26,7 +26,7 @@ double spacing_of(const ClothDescription& cloth) {
 double work_of_body(const ClothDescription& cloth, double radius, double fastest) {
   const Material& material = cloth.material;
   const double area = cloth.size.x() * cloth.size.y(), mass = material.density * area;
-  const double stiffness = material.structural + material.shear + 4 * material.bending;
+  const double stiffness = material.structural.most() + material.shear + 4 * material.bending;
   // Nodes inside are put on its surface at once; others may fly off at twice its speed, or be pulled along.
   const double stretch =
       (radius + std::min(fastest * kRandomSeconds, 10 * cloth.size.maxCoeff())) / spacing_of(cloth);
@@ -116,7 +116,7 @@ double stiffness_of(const ClothDescription& cloth, const SimulationDescription& 
   const bool limited = std::any_of(scene.effects.begin(), scene.effects.end(), [](const auto& effect) {
     return std::holds_alternative<StrainLimitEffect>(effect);
   });
-  return cloth.material.structural * (limited ? cloth.material.limit.stiffening : 1);
+  return cloth.material.structural.most() * (limited ? cloth.material.limit.stiffening : 1);
 }
 
 /// Of gravity and winds on the whole cloth, N.
@@ -174,7 +174,7 @@ double energy_beyond_guard(const SimulationDescription& scene) {
       cloth.material.density * cloth.size.prod() / cloth.base_cells.at(cloth.max_level).nodes();
   const double speed = StepGuard<float>::kMostSpeed;
   const double stretch = StepGuard<float>::kMostStrain * spacing_of(cloth);
-  return std::min(mass * speed * speed, cloth.material.structural * stretch * stretch) / 2;
+  return std::min(mass * speed * speed, cloth.material.structural.most() * stretch * stretch) / 2;
 }
 
 }  // namespace weft::stability

@@ -143,7 +143,7 @@ SimulationDescription with_three_balls(const Check& made_up) {
 // A failure that hangs on two things at once is shrunk to these two.
 TEST(Shrink, LeavesWhatTheFailureNeeds) {
   const auto made_up = [](const SimulationDescription& scene) -> std::optional<Failure> {
-    if (scene.balls.empty() || scene.cloths[0].material.structural <= 100) return {};
+    if (scene.balls.empty() || scene.cloths[0].material.structural.most() <= 100) return {};
     return Failure{Failure::Kind::energy, "a ball and a stiff cloth"};
   };
   const SimulationDescription small = shrink(with_three_balls(made_up), made_up);

@@ -21,7 +21,7 @@ json json_of(const ClothDescription& cloth) {
       {"levels", {{"min", cloth.min_level}, {"max", cloth.max_level}, {"initial", cloth.initial_level}}},
       {"material",
        {{"density", material.density},
-        {"structural", material.structural},
+        {"structural", {material.structural.warp, material.structural.weft}},
         {"shear", material.shear},
         {"bending", material.bending},
         {"damping", material.damping},

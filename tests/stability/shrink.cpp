@@ -44,10 +44,12 @@ Scenes simpler_than(const SimulationDescription& scene) {
   cloth([](auto& c) { c.sewn = false; });
   cloth([&](auto& c) { c.size = plain.size; });
   cloth([&](auto& c) { c.size.y() = c.size.x(); });
-  for (double Material::*constant : {&Material::density, &Material::structural, &Material::shear,
-                                     &Material::bending, &Material::damping}) {
+  for (double Material::*constant :
+       {&Material::density, &Material::shear, &Material::bending, &Material::damping}) {
     cloth([&](auto& c) { c.material.*constant = plain.material.*constant; });
   }
+  cloth([&](auto& c) { c.material.structural = plain.material.structural; });
+  cloth([&](auto& c) { c.material.structural = c.material.structural.warp; });
   cloth([&](auto& c) { c.material.rigidity = plain.material.rigidity; });
   cloth([&](auto& c) { c.material.limit = plain.material.limit; });
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {

@@ -58,7 +58,8 @@ SimulationDescription strip(int level) {
   for (int r = 0; r < grid.rows; ++r) {
     if (r > 0) {
       const double load = cloth.material.density * 9.81 * (1 - (r - 0.5) * cell);
-      const double length = cell * (1 + load / cloth.material.structural), step = aside(r) - aside(r - 1);
+      const double length = cell * (1 + load / cloth.material.structural.warp),
+                   step = aside(r) - aside(r - 1);
       y -= std::sqrt(length * length - step * step);
     }
     for (int c = 0; c < grid.cols; ++c)

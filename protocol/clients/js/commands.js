@@ -170,8 +170,9 @@ export class Commands {
   }
 
   /**
-   * Changes numbers of a cloth's material from the next step on. The others stay. `rigidity` may be one number for
-   * all three. A value that it has already changes nothing and is not told.
+   * Changes numbers of a cloth's material from the next step on. The others stay; with `structural` alone
+   * `structural_weft` keeps its share of it. `rigidity` may be one number for all three. A value that it has already
+   * changes nothing and is not told.
    * @param {number} cloth the cloth's number in `scene`
    * @param {Object<string, number|number[]>} parameters each within the range that `scene`'s `material_tunable` has for it
    */

@@ -20,8 +20,8 @@ std::optional<Springs<Real>> softened_springs(const Springs<Real>& springs, cons
   const double stiffest = springs.max_squared_frequency(mass) * h * h;
   if (!(stiffest > most)) return {};
   Material soft = cloth.material;
-  const double limit = most / stiffest * std::max({soft.structural, soft.shear, soft.bending});
-  for (double* constant : {&soft.structural, &soft.shear, &soft.bending}) {
+  const double limit = most / stiffest * std::max({soft.structural.most(), soft.shear, soft.bending});
+  for (double* constant : {&soft.structural.warp, &soft.structural.weft, &soft.shear, &soft.bending}) {
     *constant = std::min(*constant, limit);
   }
   Springs<Real> softened(soft, cloth.discretization, cloth.size, mass.grid(), springs.damping_time(),

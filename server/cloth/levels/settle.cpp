@@ -81,8 +81,8 @@ template <class Real>
 bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Contact<Real>* contact,
             const std::vector<Solid>& solids, double longest, double enough) {
   const ClothDescription& cloth = *forces.context.cloth;
-  const double crossing =
-      cloth.size.maxCoeff() * std::sqrt(cloth.material.density / cloth.material.structural);
+  const Stiffness& along = cloth.material.structural;
+  const double crossing = cloth.size.maxCoeff() * std::sqrt(cloth.material.density / along.least());
   const double cell = cloth.size.maxCoeff() / std::max(particles.grid().rows - 1, particles.grid().cols - 1);
   const Particles<Real> before = particles;
   std::vector<Solid> still = at_start(solids);

@@ -11,6 +11,17 @@ enum class Discretization {
               ///< follow from the sheet's stiffness and the cell's shape: all levels approach one sheet
 };
 
+/// Resistance to stretch along the threads, N/m, each finite and >= 0; a single number is both.
+struct Stiffness {
+  double warp, weft;  ///< along u, along v
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is a stiffness
+  constexpr Stiffness(double both) : warp(both), weft(both) {}
+  constexpr Stiffness(double along_u, double along_v) : warp(along_u), weft(along_v) {}
+  constexpr double least() const { return warp < weft ? warp : weft; }
+  constexpr double most() const { return warp < weft ? weft : warp; }
+  bool operator==(const Stiffness&) const = default;
+};
+
 /// Bending rigidities, N m, each finite and >= 0: a sheet bent to the curvatures k_uu and k_vv along its u
 /// and v and to the twist k_uv holds u k_uu^2 / 2 + v k_vv^2 / 2 + twist k_uv^2 joules a square metre. Bent
 /// along the bias it has (u + v + 2 twist) / 4; all three alike bend alike in every direction.
@@ -35,11 +46,10 @@ struct StrainLimit {
 /// K(i,j) in N/m, the same at every level. With continuum they are the sheet's own, in N/m (force per width
 /// per strain), and the constants of a level follow from them (springs.h).
 struct Material {
-  double density = 0.1;  ///< areal density, kg/m2; finite and > 0
-  double structural =
-      5000;                ///< N/m, along warp and weft; >= 0. Higher stretches less and needs more substeps.
-  double shear = 500;      ///< N/m, along the diagonals; >= 0
-  double bending = 5;      ///< N/m, springs to the second neighbour; >= 0
+  double density = 0.1;         ///< areal density, kg/m2; finite and > 0
+  Stiffness structural = 5000;  ///< along warp and weft. Higher stretches less and needs more substeps.
+  double shear = 500;           ///< N/m, along the diagonals; >= 0
+  double bending = 5;           ///< N/m, springs to the second neighbour; >= 0
   double damping = 0.1;    ///< Eq. 3's k; N s/m per particle (paper) or N s/m3, per area (continuum); >= 0
   Rigidity rigidity = {};  ///< of the effect plate_bending, the same at every level and discretization
   StrainLimit limit = {};  ///< of the effect strain_limit
@@ -53,7 +63,7 @@ struct Fabric {
   std::string_view source;
 };
 
-/// The named fabrics, at least four; see material.cpp for the sources.
+/// The named fabrics; see material.cpp for the sources.
 std::span<const Fabric> fabrics();
 /// The fabric of that name, or nullptr.
 const Fabric* find_fabric(std::string_view name);

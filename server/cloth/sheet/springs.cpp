@@ -133,8 +133,8 @@ Springs<Real>::Springs(const Material& material, Discretization discretization, 
   };
   const StrainLimit& limit = material.limit;
   const double locked = std::sqrt(diagonal * diagonal + 2 * hx * hy * std::sin(limit.shear));
-  add_limited(0, 1, hx, material.structural, hy / hx, hx * (1 + limit.warp));
-  add_limited(1, 0, hy, material.structural, hx / hy, hy * (1 + limit.weft));
+  add_limited(0, 1, hx, material.structural.warp, hy / hx, hx * (1 + limit.warp));
+  add_limited(1, 0, hy, material.structural.weft, hx / hy, hy * (1 + limit.weft));
   add_limited(1, 1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy), locked);
   add_limited(1, -1, diagonal, material.shear, diagonal * diagonal / (2 * hx * hy), locked);
   add(0, 2, 2 * hx, material.bending, hy / (2 * hx));

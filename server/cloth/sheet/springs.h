@@ -40,8 +40,8 @@ class Springs {
  public:
   Springs() = default;
   /// `size` is the cloth's width and height, m. Continuum constants for cells hx by hy: structural Y hy/hx
-  /// along u, Y hx/hy along v; shear G d^2 / (2 hx hy) with d the diagonal; bending as structural at twice
-  /// the distance, B hy/(2 hx) and B hx/(2 hy).
+  /// of the warp's Y along u, Y hx/hy of the weft's along v; shear G d^2 / (2 hx hy) with d the diagonal;
+  /// bending as structural at twice the distance, B hy/(2 hx) and B hx/(2 hy).
   Springs(const Material& material, Discretization discretization, const Vec2& size, const Grid& grid,
           double damping_time = 0, bool limited = false);
 

@@ -155,7 +155,7 @@ template <class Real>
 void Cloth<Real>::hand_to_guard() {
   const Grid& grid = particles_.grid();
   // A piece that falls off gets as far as it likes from what hangs.
-  const bool held = description_.material.structural > 0 && !torn_;
+  const bool held = description_.material.structural.least() > 0 && !torn_;
   const double infinite = std::numeric_limits<double>::infinity();
   guard_.enter(particles_, held ? cell(grid) : Vec2(infinite, infinite));
 }

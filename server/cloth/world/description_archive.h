@@ -46,6 +46,10 @@ void serialize(Archive& archive, TearingEffect& effect) {
 // --- Materials ---
 
 template <class Archive>
+void serialize(Archive& archive, Stiffness& stiffness) {
+  archive(stiffness.warp, stiffness.weft);
+}
+template <class Archive>
 void serialize(Archive& archive, Rigidity& rigidity) {
   archive(rigidity.u, rigidity.v, rigidity.twist);
 }

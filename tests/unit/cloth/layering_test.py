@@ -16,12 +16,13 @@ ALLOWED = {
     "protocol": {"protocol"},
     "scene": {"scene", "cloth"},
     "study": {"study", "scene", "cloth"},
+    "fabric": {"fabric", "scene", "cloth"},
     "include": {"include"},
     "library": {"library", "include", "scene", "cloth"},
     "record": {"record", "scene", "cloth"},
     "host": {"host", "record", "study", "scene", "cloth", "protocol"},
     "net": {"net", "host", "study", "scene", "cloth", "protocol"},
-    "cli": {"cli", "net", "host", "record", "study", "scene", "cloth", "protocol"},
+    "cli": {"cli", "net", "host", "record", "study", "fabric", "scene", "cloth", "protocol"},
 }
 
 # Headers that would bring files, sockets, JSON or logging into the simulation; sockets and logging into the formats.
@@ -31,6 +32,7 @@ FORBIDDEN_LIBRARIES = {
     "protocol": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "Eigen/", "sys/", "netinet/"),
     "scene": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "sys/", "netinet/"),
     "study": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "fstream", "filesystem", "sys/", "netinet/"),
+    "fabric": ("boost/", "spdlog/", "CLI/", "tiny_gltf", "fcl/", "fstream", "filesystem", "sys/", "netinet/"),
 }
 
 # The folders of server/cloth, the lowest first: each uses itself and those before it.

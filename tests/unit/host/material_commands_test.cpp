@@ -69,10 +69,10 @@ TEST_F(MaterialCommands, ASceneTellsItsMaterialsAndWhatTheyMayBe) {
   drain();
   const json scene = other.last("scene");
   EXPECT_EQ(scene.at("cloths").at(0).at("material"), json::parse(R"({
-    "structural": 200, "shear": 20, "bending": 0.01, "damping": 0.1,
+    "structural": 200, "structural_weft": 200, "shear": 20, "bending": 0.01, "damping": 0.1,
     "limit_warp": 0.05, "limit_weft": 0.08, "limit_shear": 0.3, "stiffening": 20})"));
   const json& tunable = scene.at("material_tunable");
-  EXPECT_EQ(tunable.size(), 8u);
+  EXPECT_EQ(tunable.size(), 9u);
   EXPECT_EQ(tunable.at("structural"), json::parse(R"({"range": [0, 1000000000], "unit": "N/m"})"));
   EXPECT_EQ(tunable.at("limit_shear"),
             json::parse(R"({"range": [0.001, 1.5], "unit": "rad", "effect": "strain_limit"})"));
@@ -87,13 +87,22 @@ TEST_F(MaterialCommands, AreToldToAllAndTakeEffectInTheNextStep) {
   EXPECT_EQ(event.at("f"), 8);
   EXPECT_EQ(event.at("cloth"), 0);
   EXPECT_EQ(event.at("material"), json::parse(R"({
-    "structural": 800, "shear": 20, "bending": 0.01, "damping": 0.1,
+    "structural": 800, "structural_weft": 800, "shear": 20, "bending": 0.01, "damping": 0.1,
     "limit_warp": 0.5, "limit_weft": 0.08, "limit_shear": 0.3, "stiffening": 20})"));
   EXPECT_EQ(scene_now().at("cloths").at(0).at("material"), event.at("material"));
   EXPECT_EQ(live.simulation().cloths()[0].description().material.structural, 200);  // not yet
   live.step();
   EXPECT_EQ(live.simulation().cloths()[0].description().material.structural, 800);
   EXPECT_EQ(live.studied().cloths[0].material.limit.warp, 0.5);
+}
+
+TEST_F(MaterialCommands, SetTheWeftAloneAndItsShareStays) {
+  command(ClothTune{0, {{"structural_weft", {50}}}});
+  EXPECT_EQ(other.last("event", "cloth.tune").at("material").at("structural"), 200);
+  command(ClothTune{0, {{"structural", {400}}}});
+  EXPECT_EQ(other.last("event", "cloth.tune").at("material").at("structural_weft"), 100);
+  live.step();
+  EXPECT_EQ(live.simulation().cloths()[0].description().material.structural, Stiffness(400, 100));
 }
 
 TEST_F(MaterialCommands, OfManyBeforeAStepTheLastCounts) {
@@ -122,12 +131,12 @@ TEST_F(MaterialCommands, ThatAreWrongSayWhatIsAllowedAndChangeNothing) {
   // No effect of the scene reads it.
   expect_refused(
       ClothTune{0, {{"rigidity", {1}}}}, "unknown_member", "/parameters/rigidity",
-      "/parameters/rigidity is 1; allowed: in the material only structural, shear, bending, damping, "
-      "limit_warp, limit_weft, limit_shear, stiffening");
+      "/parameters/rigidity is 1; allowed: in the material only structural, structural_weft, shear, bending, "
+      "damping, limit_warp, limit_weft, limit_shear, stiffening");
   expect_refused(
       ClothTune{0, {{"density", {1}}}}, "unknown_member", "/parameters/density",
-      "/parameters/density is 1; allowed: in the material only structural, shear, bending, damping, "
-      "limit_warp, limit_weft, limit_shear, stiffening");
+      "/parameters/density is 1; allowed: in the material only structural, structural_weft, shear, bending, "
+      "damping, limit_warp, limit_weft, limit_shear, stiffening");
   expect_refused(FrictionSet{1, 2, {}}, "not_found", "/ball", "/ball is 2; the scene has no such ball");
   expect_refused(FrictionSet{1, {}, 2}, "not_found", "/obstacle",
                  "/obstacle is 2; the scene has 2 obstacles, counted from 0");

@@ -29,7 +29,7 @@ std::vector<command::Command> all_commands(const Simulation<float>& simulation) 
   ball.radius = 0.2;
   ball.motion = BallDescription::Motion::dynamic;
   Material material = simulation.cloths()[0].description().material;
-  material.structural *= 2;
+  material.structural.warp *= 2;
   Wind wind = simulation.wind();
   wind.speed = 2;
   return {command::RequestLevel{0, 3},

@@ -22,10 +22,11 @@ TEST(Looks, AreAsTheSceneSays) {
   EXPECT_EQ(scene.looks[0], expected);
 }
 
-// Each named fabric has a weave of its own, whether the material is its name or begins with it.
+// Each named fabric has a weave, whether the material is its name or begins with it.
 TEST(Looks, FollowTheFabric) {
   const std::vector<std::pair<std::string, std::string>> weaves = {
-      {"silk", "satin"}, {"cotton", "plain"}, {"canvas", "canvas"}, {"denim", "twill"}, {"wool", "wool"}};
+      {"silk", "satin"}, {"cotton", "plain"},    {"canvas", "canvas"},     {"denim", "twill"},
+      {"wool", "wool"},  {"polyester", "plain"}, {"stretch_wool", "twill"}};
   ASSERT_EQ(weaves.size(), fabrics().size());
   for (const auto& [fabric, weave] : weaves) {
     SCOPED_TRACE(fabric);

@@ -28,18 +28,19 @@ json schema_of_number(const std::string& name) {
   static const json file = json::parse(std::ifstream(WEFT_SCENE_SCHEMA));
   const json& material = file.at("definitions").at("material").at("properties");
   if (name.starts_with("limit_")) return material.at("limit").at("properties").at(name.substr(6));
+  if (name == "structural_weft") return material.at("structural");
   if (name == "stiffening") return material.at("limit").at("properties").at(name);
   return material.at(name);
 }
 
 TEST(MaterialParameters, AreThoseThatTheScenesEffectsRead) {
-  const std::vector<std::string> springs{"structural", "shear", "bending"};
+  const std::vector<std::string> springs{"structural", "structural_weft", "shear", "bending"};
   EXPECT_EQ(names_in({}), springs);
   EXPECT_EQ(names_in({GravityEffect{}, DampingEffect{}}),
-            (std::vector<std::string>{"structural", "shear", "bending", "damping"}));
+            (std::vector<std::string>{"structural", "structural_weft", "shear", "bending", "damping"}));
   EXPECT_EQ(names_in({PlateBendingEffect{}}),
-            (std::vector<std::string>{"structural", "shear", "bending", "rigidity"}));
-  EXPECT_EQ(names_in(kAllThatReadIt).size(), 9u);
+            (std::vector<std::string>{"structural", "structural_weft", "shear", "bending", "rigidity"}));
+  EXPECT_EQ(names_in(kAllThatReadIt).size(), 10u);
 }
 
 TEST(MaterialParameters, HaveTheSchemasNamesAndRanges) {
@@ -47,7 +48,9 @@ TEST(MaterialParameters, HaveTheSchemasNamesAndRanges) {
     SCOPED_TRACE(parameter.name);
     json schema = schema_of_number(parameter.name);
     if (schema.contains("oneOf")) {
-      EXPECT_EQ(schema.at("oneOf").at(1).at("minItems"), parameter.count);
+      if (parameter.count > 1) {
+        EXPECT_EQ(schema.at("oneOf").at(1).at("minItems"), parameter.count);
+      }
       schema = schema.at("oneOf").at(0);
     }
     EXPECT_EQ(json(parameter.range.min), schema.at("minimum"));
@@ -65,16 +68,34 @@ TEST(MaterialParameters, AreReadAndWritten) {
   }
   // Each has its own place.
   EXPECT_EQ(material, (Material{.density = Material{}.density,
-                                .structural = 0.25,
-                                .shear = 1.25,
-                                .bending = 2.25,
-                                .damping = 3.25,
-                                .rigidity = {4.25, 5.25, 6.25},
-                                .limit = {7.25, 8.25, 9.25, 10.25}}));
+                                .structural = {0.25, 1.25},
+                                .shear = 2.25,
+                                .bending = 3.25,
+                                .damping = 4.25,
+                                .rigidity = {5.25, 6.25, 7.25},
+                                .limit = {8.25, 9.25, 10.25, 11.25}}));
   next = 0.25;
   for (const MaterialParameter& parameter : material_parameters(kAllThatReadIt)) {
     for (const double value : parameter.read(material)) EXPECT_EQ(value, next++) << parameter.name;
   }
+}
+
+TEST(MaterialParameters, TheWeftKeepsItsShareOfTheWarpsStiffness) {
+  const std::vector<MaterialParameter> known = material_parameters({});
+  const MaterialParameter &structural = known[0], &weft = known[1];
+  Material material;
+  structural.write(material, {800});  // one sheet alike both ways stays so
+  EXPECT_EQ(material.structural, Stiffness(800));
+  weft.write(material, {200});
+  EXPECT_EQ(material.structural, Stiffness(800, 200));
+  structural.write(material, {400});
+  EXPECT_EQ(material.structural, Stiffness(400, 100));
+  weft.write(material, {1e9});
+  structural.write(material, {4000});  // ten times as much would be out of the range
+  EXPECT_EQ(material.structural, Stiffness(4000, 1e9));
+  material.structural = {0, 100};
+  structural.write(material, {400});  // no share of nothing
+  EXPECT_EQ(material.structural, Stiffness(400, 100));
 }
 
 }  // namespace

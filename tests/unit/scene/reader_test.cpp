@@ -97,6 +97,16 @@ TEST(Reader, MaterialsByNameByNameWithChangesAndRaw) {
   EXPECT_EQ(cloths.at(2).material, (Material{0.2, 1000, 0, 0, 0, {2e-5, 1e-5, 0}}));
 }
 
+TEST(Reader, WarpAndWeftMayDifferInStiffness) {
+  const Scene scene = good(parse(R"({"cloths":[
+      {"name":"a","material":{"fabric":"silk","structural":[774,1790]}},
+      {"name":"b","material":{"structural":300}}]})",
+                                 "uneven"));
+  EXPECT_EQ(scene.simulation.cloths.at(0).material.structural, Stiffness(774, 1790));
+  EXPECT_EQ(scene.simulation.cloths.at(0).material.shear, find_fabric("silk")->material.shear);
+  EXPECT_EQ(scene.simulation.cloths.at(1).material.structural, Stiffness(300, 300));
+}
+
 TEST(Reader, EveryNamedPin) {
   const Scene scene = good(parse(R"({"cloths":[{"pins":["top_left","top_right","bottom_left","bottom_right",
       "top","bottom","left","right"]}]})",

@@ -68,7 +68,8 @@ void command(Simulation<Real>& simulation, std::mt19937& draw) {
       return simulation.set_resting(cloth, below(2) == 0);
     case 10: {
       Material material = simulation.cloths()[cloth].description().material;
-      material.structural *= 0.5 + unit();
+      material.structural = {material.structural.warp * (0.5 + unit()),
+                             material.structural.weft * (0.5 + unit())};
       return simulation.set_material(cloth, material);
     }
     default:

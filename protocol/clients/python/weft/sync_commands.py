@@ -169,8 +169,9 @@ class SyncCommands(abc.ABC):
         return self.send("cloth.unpin", cloth=cloth, u=u, v=v)
 
     def tune_cloth(self, cloth: int, **parameters: Parameter) -> Message:
-        """Changes numbers of a cloth's material from the next step on. The others stay. `rigidity` may be one number
-        for all three. A value that it has already changes nothing and is not told.
+        """Changes numbers of a cloth's material from the next step on. The others stay; with `structural` alone
+        `structural_weft` keeps its share of it. `rigidity` may be one number for all three. A value that it has already
+        changes nothing and is not told.
 
         cloth: the cloth's number in `scene`
         parameters: each within the range that `scene`'s `material_tunable` has for it

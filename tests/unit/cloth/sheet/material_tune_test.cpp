@@ -152,7 +152,7 @@ TEST(MaterialTune, WakesAClothThatSleeps) {
   simulation.set_material(0, scene.cloths[0].material);
   EXPECT_TRUE(simulation.cloths()[0].asleep());
   Material softer = scene.cloths[0].material;
-  softer.structural /= 10;
+  softer.structural = softer.structural.warp / 10;
   simulation.set_material(0, softer);
   EXPECT_FALSE(simulation.cloths()[0].asleep());
 }

@@ -126,6 +126,18 @@ TEST(Springs, ContinuumConstantsFollowFromTheCellsShape) {
   }
 }
 
+// The same cells, each direction by its own stiffness.
+TEST(Springs, WarpAndWeftHaveTheirOwnConstants) {
+  Material material = stiffnesses(0, 500, 5);
+  material.structural = {5000, 300};
+  const Springs<double> springs(material, Discretization::continuum, {2, 1}, Grid::with_nodes(5, 5));
+  EXPECT_DOUBLE_EQ(find_family(springs.families(), 0, 1)->stiffness, 2500);
+  EXPECT_DOUBLE_EQ(find_family(springs.families(), 1, 0)->stiffness, 600);
+  const Springs<double> paper(material, Discretization::paper, {2, 1}, Grid::with_nodes(5, 5));
+  EXPECT_EQ(find_family(paper.families(), 0, 1)->stiffness, 5000);
+  EXPECT_EQ(find_family(paper.families(), 1, 0)->stiffness, 300);
+}
+
 TEST(Springs, AFamilyWithoutStiffnessIsAbsent) {
   const Grid grid = Grid::with_nodes(9, 9);
   const auto count = [&](double structural, double shear, double bending) {
