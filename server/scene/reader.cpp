@@ -41,11 +41,11 @@ void read_camera(const json& value, const std::string& path, Report& report, Sce
   }
 }
 
-std::vector<ClothDescription> read_cloths(Object& scene, std::vector<Look>& looks) {
+std::vector<ClothDescription> read_cloths(Object& scene, MotionFiles& motions, std::vector<Look>& looks) {
   std::vector<ClothDescription> cloths;
   scene.require("cloths", "an array of cloths");
   scene.each("cloths", 1, kMaxCloths, [&](const json& value, const std::string& path) {
-    ClothDescription cloth = read_cloth(value, path, scene.report(), looks.emplace_back());
+    ClothDescription cloth = read_cloth(value, path, scene.report(), motions, looks.emplace_back());
     const auto same =
         std::find_if(cloths.begin(), cloths.end(), [&](const auto& o) { return o.name == cloth.name; });
     if (same != cloths.end()) {
@@ -129,11 +129,12 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
   {
     Object object(document, "", report);
     SimulationDescription& simulation = scene.simulation;
+    MotionFiles motions(folder);
     object.string("title", scene.title, kTitleLength);
     scene.notes = read_notes(object);
-    simulation.cloths = read_cloths(object, scene.looks);
+    simulation.cloths = read_cloths(object, motions, scene.looks);
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
-      read_collider(value, path, report, folder, simulation);
+      read_collider(value, path, report, folder, motions, simulation);
     });
     check_pins(simulation, report);
     simulation.effects = read_effects(object);

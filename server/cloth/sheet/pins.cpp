@@ -66,16 +66,27 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
       for (const std::size_t node : nodes) fixed.nodes.push_back({node, Vec3::Zero()});
       fixed_.push_back(std::move(fixed));
     }
-    if (region.path.empty()) continue;
-    Path path{region.path, region.loop, {}};
-    const Vec3 offset = along_path(region.path, time, region.loop);
-    for (const std::size_t node : nodes) {
-      const Vec3 local = weft::at<Real>(kernels::components(particles.position), node);
-      path.nodes.push_back({node, particles.place + local - offset});
+    const auto world = [&](std::size_t node) -> Vec3 {
+      return particles.place + weft::at<Real>(kernels::components(particles.position), node);
+    };
+    const auto moves_until = [&](double end) {
+      end_of_motion_ = std::max(end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : end);
+    };
+    if (!region.path.empty()) {
+      Path path{region.path, region.loop, {}};
+      const Vec3 offset = along_path(region.path, time, region.loop);
+      for (const std::size_t node : nodes) path.nodes.push_back({node, world(node) - offset});
+      moves_until(region.path.back().time);
+      carried_.push_back(std::move(path));
     }
-    end_of_motion_ = std::max(
-        end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
-    carried_.push_back(std::move(path));
+    if (!region.motion.empty()) {
+      Led led{region.motion, region.loop, {}};
+      const Pose pose = along_path(region.motion, time, region.loop);
+      for (const std::size_t node : nodes)
+        led.nodes.push_back({node, pose.orientation.conjugate() * (world(node) - pose.position)});
+      moves_until(region.motion.back().time);
+      led_.push_back(std::move(led));
+    }
   }
 }
 
