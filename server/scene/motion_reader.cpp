@@ -36,8 +36,8 @@ PosePath read_motion(const json& value, const std::string& path, Report& report,
   if (report.count() > problems) return {};
   try {
     const Skeleton& skeleton = builtin ? motions.builtin(name) : motions.file(name);
-    std::vector<PoseWaypoint> points = path_of(skeleton, find_clip(skeleton, animation),
-                                               find_node(skeleton, node), placement);
+    std::vector<PoseWaypoint> points =
+        path_of(skeleton, find_clip(skeleton, animation), find_node(skeleton, node), placement);
     motions.count(points.size());
     return {std::move(points), placement.loop};
   } catch (const std::invalid_argument& error) {

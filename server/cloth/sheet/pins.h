@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// A cloth's pins at one level: which nodes are held, and where those go whose regions have a path or a motion
-/// or are fixed to an obstacle.
+/// A cloth's pins at one level: which nodes are held, and where those go whose regions have a path or a
+/// motion or are fixed to an obstacle.
 template <class Real>
 class Pins {
  public:
@@ -85,7 +85,9 @@ class Pins {
       archive(motion, loops, nodes);
     }
   };
-  static Vec3 place(const Pose& pose, const Vec3& origin) { return pose.position + pose.orientation * origin; }
+  static Vec3 place(const Pose& pose, const Vec3& origin) {
+    return pose.position + pose.orientation * origin;
+  }
   /// Nodes on an obstacle. Their places as seen from it are taken in the first step and kept from then on.
   struct Fixed {
     Solid obstacle;              ///< as it goes in the step

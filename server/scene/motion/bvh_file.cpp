@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scene/object.h"
+
 namespace weft::scene {
 namespace {
 
@@ -35,7 +37,7 @@ class BvhWords {
     return rest.substr(first, rest.find_last_not_of(kBvhBlanks) - first + 1);
   }
   void expect(std::string_view word) {
-    if (const std::string_view found = next(); found != word) refuse(found, "\"" + std::string(word) + "\"");
+    if (const std::string_view found = next(); found != word) refuse(found, quoted_list({word}));
   }
   double number(double least, double most, const std::string& what) { return read(least, most, what); }
   std::size_t count(std::size_t least, std::size_t most, const std::string& what) {
@@ -45,7 +47,7 @@ class BvhWords {
     std::string shown(found.substr(0, 40));
     std::replace_if(
         shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    fail(found.empty() ? "ends in" : "has \"" + shown + "\" in", "; must be " + expected);
+    fail(found.empty() ? "ends in" : "has " + quoted_list({shown}) + " in", "; must be " + expected);
   }
   [[noreturn]] void fail(const std::string& before, const std::string& after) const {
     throw std::invalid_argument(before + " line " + std::to_string(line_) + after);
@@ -100,12 +102,13 @@ BvhChannel read_channel(BvhWords& words, std::size_t node) {
 
 /// The joints as they are nested, until the word that ends them.
 void read_hierarchy(BvhWords& words, Skeleton& skeleton, std::vector<BvhChannel>& channels) {
-  int open = -1;           // the joint whose braces are open
-  bool in_end = false;     // within an End Site's
-  std::vector<int> ends;   // of each node, how many it has
+  int open = -1;          // the joint whose braces are open
+  bool in_end = false;    // within an End Site's
+  std::vector<int> ends;  // of each node, how many it has
   const auto begin_node = [&](std::string name, bool end) {
     if (skeleton.nodes.size() == kMaxSkeletonNodes)
-      words.fail("has in", " a joint too many; at most " + std::to_string(kMaxSkeletonNodes) + " are allowed");
+      words.fail("has in",
+                 " a joint too many; at most " + std::to_string(kMaxSkeletonNodes) + " are allowed");
     words.expect("{");
     words.expect("OFFSET");
     Skeleton::Node& node = skeleton.nodes.emplace_back();
@@ -135,7 +138,8 @@ void read_hierarchy(BvhWords& words, Skeleton& skeleton, std::vector<BvhChannel>
       words.expect("Site");
       const auto joint = static_cast<std::size_t>(open);
       const int number = ++ends[joint];
-      begin_node(skeleton.nodes[joint].name + "_end" + (number > 1 ? "_" + std::to_string(number) : ""), true);
+      begin_node(skeleton.nodes[joint].name + "_end" + (number > 1 ? "_" + std::to_string(number) : ""),
+                 true);
       in_end = true;
     } else if (word == "CHANNELS") {
       const bool again = std::any_of(channels.begin(), channels.end(), [&](const BvhChannel& channel) {
@@ -188,9 +192,9 @@ Skeleton parse_bvh(std::string_view text) {
   words.expect("Frames:");
   const std::size_t frames = words.count(1, kMaxBvhNumbers, "a number of frames");
   if (frames * channels.size() > kMaxBvhNumbers)
-    words.fail("has " + std::to_string(frames) + " frames of " + std::to_string(channels.size()) +
-                   " channels by",
-               "; at most " + std::to_string(kMaxBvhNumbers) + " numbers are allowed");
+    words.fail(
+        "has " + std::to_string(frames) + " frames of " + std::to_string(channels.size()) + " channels by",
+        "; at most " + std::to_string(kMaxBvhNumbers) + " numbers are allowed");
   words.expect("Frame");
   words.expect("Time:");
   Skeleton::Clip& clip = skeleton.clips.emplace_back();

@@ -38,7 +38,8 @@ GltfChunks chunks_of(std::string_view bytes) {
   if (version != 2) refuse_gltf("is of glTF's version " + std::to_string(version) + "; must be 2");
   GltfChunks chunks;
   for (std::size_t at = kHeader; at < bytes.size();) {
-    if (bytes.size() - at < kChunkHeader) refuse_gltf("ends within a chunk's header, at byte " + std::to_string(at));
+    if (bytes.size() - at < kChunkHeader)
+      refuse_gltf("ends within a chunk's header, at byte " + std::to_string(at));
     const std::size_t length = little_endian<std::uint32_t>(bytes, at);
     const auto type = little_endian<std::uint32_t>(bytes, at + 4);
     at += kChunkHeader;
@@ -72,9 +73,10 @@ const ComponentType& component_type(std::uint64_t code) {
                                                            {5123, 2, read_as<std::uint16_t>, 65535},
                                                            {5125, 4, read_as<std::uint32_t>, 4294967295.0},
                                                            {5126, 4, read_as<float>, 1}}};
-  const auto* const found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const ComponentType& type) { return type.code == code; });
-  if (found == kTypes.end()) refuse_gltf("has components of type " + std::to_string(code) + ", which glTF does not know");
+  const auto* const found = std::find_if(kTypes.begin(), kTypes.end(),
+                                         [&](const ComponentType& type) { return type.code == code; });
+  if (found == kTypes.end())
+    refuse_gltf("has components of type " + std::to_string(code) + ", which glTF does not know");
   return *found;
 }
 
@@ -99,7 +101,8 @@ GltfDocument::GltfDocument(std::string_view bytes, const ReadBuffer& read_buffer
       });
     }
   });
-  if (!version.starts_with("2.")) refuse_gltf("is of glTF's version \"" + version.substr(0, 16) + "\"; must be 2.0");
+  if (!version.starts_with("2."))
+    refuse_gltf("is of glTF's version \"" + version.substr(0, 16) + "\"; must be 2.0");
   std::size_t left = kMaxGltfBytes;
   for (std::size_t i = 0; i < count("buffers"); ++i) {
     std::string uri;
@@ -181,7 +184,8 @@ GltfDocument::Numbers GltfDocument::numbers(std::size_t accessor, std::string_vi
     std::string found;
     object.require("type", "a type");
     if (object.string("type", found, 16) && found != type)
-      object.report().refuse(json(found), object.path("type"), "\"" + std::string(type) + "\" for what it is read as");
+      object.report().refuse(json(found), object.path("type"),
+                             quoted_list({type}) + " for what it is read as");
     if (object.has("sparse")) object.problem("sparse", "is given; sparse accessors are not read");
     view_index = index(object, "bufferView", "bufferViews");
     object.integer("byteOffset", offset, {0, static_cast<double>(kMaxGltfBytes), "bytes"});
@@ -198,7 +202,8 @@ GltfDocument::Numbers GltfDocument::numbers(std::size_t accessor, std::string_vi
   const std::size_t size = component.size * numbers.components;
   if (stride == 0) stride = size;
   if (offset > bytes.size() || (elements - 1) * stride + size > bytes.size() - offset)
-    refuse_gltf("has at " + path + " elements beyond the " + std::to_string(bytes.size()) + " bytes of its view");
+    refuse_gltf("has at " + path + " elements beyond the " + std::to_string(bytes.size()) +
+                " bytes of its view");
   read_ += elements * numbers.components;
   if (read_ > kMaxGltfNumbers)
     refuse_gltf("has at " + path + " more numbers than the " + std::to_string(kMaxGltfNumbers) +

@@ -11,9 +11,9 @@
 
 namespace weft::scene {
 
-inline constexpr std::size_t kMaxGltfBytes = 64u << 20;       ///< of all buffers together
-inline constexpr std::size_t kMaxGltfNumbers = 16'000'000;    ///< read of one file
-inline constexpr std::size_t kMaxGltfElements = 1'000'000;    ///< of one list: nodes, accessors, keys' times
+inline constexpr std::size_t kMaxGltfBytes = 64u << 20;     ///< of all buffers together
+inline constexpr std::size_t kMaxGltfNumbers = 16'000'000;  ///< read of one file
+inline constexpr std::size_t kMaxGltfElements = 1'000'000;  ///< of one list: nodes, accessors, keys' times
 
 /// A glTF 2.0 document and the numbers in its buffers. Of what it says only what is asked for is checked, and
 /// nothing outside the buffers is ever read. All throws std::invalid_argument with the JSON pointer of what
@@ -52,7 +52,8 @@ class GltfDocument {
     std::vector<double> values;  ///< finite
     const double* at(std::size_t element) const { return values.data() + element * components; }
   };
-  /// An accessor's, of this type: "SCALAR", "VEC3", "VEC4", "MAT4". Normalised integers are from -1 or 0 to 1.
+  /// An accessor's, of this type: "SCALAR", "VEC3", "VEC4", "MAT4". Normalised integers are from -1 or 0
+  /// to 1.
   Numbers numbers(std::size_t accessor, std::string_view type) const;
 
  private:

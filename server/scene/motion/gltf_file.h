@@ -7,8 +7,8 @@
 
 namespace weft::scene {
 
-/// The document in a .gltf or .glb file of the folder, with its buffers, which are files beside it or in it: by
-/// the rules of read_beside. Throws as GltfDocument.
+/// The document in a .gltf or .glb file of the folder, with its buffers, which are files beside it or in it:
+/// by the rules of read_beside. Throws as GltfDocument.
 GltfDocument open_gltf(const std::filesystem::path& folder, const std::string& file);
 
 /// The document's nodes, in its order, and its animations of their translations and rotations. A node without

@@ -79,9 +79,9 @@ std::vector<PoseWaypoint> path_of(const Skeleton& skeleton, const Skeleton::Clip
     const Pose pose = pose_at(skeleton, &clip, node, time);
     const Vec3 position = placement.orientation * (placement.scale * pose.position) + placement.offset;
     if (!(position.array().abs() <= kFarthest).all())
-      throw std::invalid_argument("has node \"" + skeleton.nodes[node].name +
-                                  text_of("\" beyond %g m of the origin at %g s; scale tells the file's unit",
-                                          kFarthest, time));
+      throw std::invalid_argument(
+          "has node \"" + skeleton.nodes[node].name +
+          text_of("\" beyond %g m of the origin at %g s; scale tells the file's unit", kFarthest, time));
     path.push_back(
         {placement.start + time, {position, (placement.orientation * pose.orientation).normalized()}});
   }

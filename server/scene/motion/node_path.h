@@ -8,7 +8,7 @@ namespace weft::scene {
 
 /// How the file's world lies in the scene's, and when its clip is played.
 struct Placement {
-  double scale = 1;  ///< of the file's lengths, > 0: 0.01 where they are cm
+  double scale = 1;                                 ///< of the file's lengths, > 0: 0.01 where they are cm
   Vec3 offset{0, 0, 0};                             ///< of the file's origin, m
   Quaternion orientation = Quaternion::Identity();  ///< of the file's axes
   double start = 0;   ///< s, of the scene, when the clip begins; the node is where that begins until then

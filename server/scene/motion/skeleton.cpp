@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "scene/nearest_name.h"
+#include "scene/object.h"
 
 namespace weft::scene {
 namespace {
@@ -50,8 +51,8 @@ Quaternion value_at(const Track<Quaternion>& track, double time) {
   const KeySpan span = span_at(track.times, time);
   const std::vector<Quaternion>& values = track.values;
   if (track.interpolation == Interpolation::cubic) {
-    const Eigen::Vector4d sum = spline_at<Eigen::Vector4d>(
-        span, [&](std::size_t i) { return Eigen::Vector4d(values[i].coeffs()); });
+    const Eigen::Vector4d sum =
+        spline_at<Eigen::Vector4d>(span, [&](std::size_t i) { return Eigen::Vector4d(values[i].coeffs()); });
     if (!(sum.norm() > 0)) return values[3 * span.before + 1].normalized();
     return Quaternion(Eigen::Vector4d(sum.normalized()));
   }
@@ -80,7 +81,7 @@ std::size_t find_node(const Skeleton& skeleton, std::string_view name) {
     ++count;
   }
   if (count == 1) return found;
-  const std::string quoted = "\"" + std::string(name) + "\"";
+  const std::string quoted = quoted_list({name});
   if (count > 1)
     throw std::invalid_argument("has " + std::to_string(count) + " nodes of the name " + quoted +
                                 "; must have one");

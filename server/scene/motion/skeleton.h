@@ -12,8 +12,8 @@
 namespace weft::scene {
 
 inline constexpr std::size_t kMaxSkeletonNodes = 10'000;  ///< of one file
-inline constexpr std::size_t kMaxSkeletonDepth = 256;      ///< nodes above another
-inline constexpr std::size_t kMaxNodeName = 256;           ///< characters
+inline constexpr std::size_t kMaxSkeletonDepth = 256;     ///< nodes above another
+inline constexpr std::size_t kMaxNodeName = 256;          ///< characters
 
 /// How values are found between two keys, as glTF 2.0 has it (Appendix C).
 enum class Interpolation { step, linear, cubic };
@@ -40,7 +40,7 @@ struct Skeleton {
     Vec3 translation{0, 0, 0};
     Quaternion rotation = Quaternion::Identity();  ///< to the parent's frame
     Vec3 scale{1, 1, 1};                           ///< along its own axes; > 0
-    bool end = false;  ///< a place where a bone ends, not a joint: BVH's End Site
+    bool end = false;                              ///< a place where a bone ends, not a joint: BVH's End Site
   };
   /// Instead of what the node itself says, where there is a track.
   struct Motion {
@@ -49,10 +49,10 @@ struct Skeleton {
     bool scales = false;  ///< the file changes its scale, which is not read
   };
   struct Clip {
-    std::string name;          ///< empty if the file gives none
-    double begin = 0;          ///< s, of its first key
-    double duration = 0;       ///< s, from its first to its last key
-    double interval = 0;       ///< s, in which it is to be sampled; > 0
+    std::string name;           ///< empty if the file gives none
+    double begin = 0;           ///< s, of its first key
+    double duration = 0;        ///< s, from its first to its last key
+    double interval = 0;        ///< s, in which it is to be sampled; > 0
     std::vector<Motion> nodes;  ///< of each node
   };
   std::vector<Node> nodes;
