@@ -19,7 +19,7 @@
 namespace weft::cli {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // as people would write a collider
 namespace fs = std::filesystem;
 
 struct SkeletonOptions {
@@ -90,19 +90,27 @@ int list(const SkeletonOptions& options) {
 }
 
 /// Short enough to read: a tenth of a millimetre.
-double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+double rounded(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }  // no -0
+
+double of_six_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::stod(text);
+}
 
 json rounded(const Vec3& vector) { return {rounded(vector.x()), rounded(vector.y()), rounded(vector.z())}; }
 
 json collider_of(const scene::BoneCapsule& capsule, const json& motion) {
   const Quaternion& turn = capsule.orientation;
-  return {{"type", "capsule"},
-          {"radius", rounded(capsule.radius)},
-          {"length", rounded(capsule.length)},
-          {"position", rounded(capsule.position)},
-          {"orientation",
-           {{"quaternion", {rounded(turn.w()), rounded(turn.x()), rounded(turn.y()), rounded(turn.z())}}}},
-          {"motion", motion}};
+  json collider;
+  collider["type"] = "capsule";
+  collider["radius"] = rounded(capsule.radius);
+  collider["length"] = rounded(capsule.length);
+  collider["position"] = rounded(capsule.position);
+  collider["orientation"]["quaternion"] = {rounded(turn.w()), rounded(turn.x()), rounded(turn.y()),
+                                           rounded(turn.z())};
+  collider["motion"] = motion;
+  return collider;
 }
 
 void read_radii(SkeletonOptions& options) {
@@ -121,6 +129,7 @@ int fit(SkeletonOptions options) {
   const OpenedSkeleton opened = open_skeleton(options.file);
   const scene::Skeleton& skeleton = opened.skeleton;
   json motion = opened.source;
+  motion["node"] = "";  // each capsule's own
   std::vector<scene::BoneCapsule> capsules;
   try {
     const scene::Skeleton::Clip* clip = clip_of(options, skeleton);
@@ -129,7 +138,7 @@ int fit(SkeletonOptions options) {
     if (options.height) {
       const double height = scene::height_of(skeleton, clip);
       if (!(height > 0)) throw std::invalid_argument("has no height for --height to scale");
-      scale = *options.height / height;
+      scale = of_six_digits(*options.height / height);
     }
     if (!options.animation.empty()) motion["animation"] = options.animation;
     if (scale != 1) motion["scale"] = scale;
@@ -145,7 +154,7 @@ int fit(SkeletonOptions options) {
   for (const scene::BoneCapsule& capsule : capsules) {
     motion["node"] = skeleton.nodes[capsule.node].name;
     json collider = collider_of(capsule, motion);
-    collider["friction"] = options.friction;
+    collider["friction"] = rounded(options.friction);
     std::printf("%s    %s", separator, collider.dump().c_str());
     separator = ",\n";
   }

@@ -10,7 +10,7 @@ namespace weft::scene {
 
 /// By what rule capsules become as thick as they are. Lengths in m.
 struct BoneFitRule {
-  double share = 0.2;      ///< radius of a bone without a skin, of its length
+  double share = 0.15;     ///< radius of a bone without a skin, of its length
   double thinnest = 0.02;  ///< and at least this, of the figure's height
   double thickest = 0.08;  ///< and at most this, of the figure's height
   double shortest = 0.05;  ///< bones shorter than this, of the figure's height, get none: fingers

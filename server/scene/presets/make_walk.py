@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes walk.bvh: a figure of 1.75 m walks round a circle of 0.9 m, five strides of 1.1 s, and then again.
+"""Writes walk.bvh: a figure of 1.73 m walks round a circle of 0.9 m, five strides of 1.1 s, and then again.
 
 Made for Weft, from sines: nobody was recorded. Lengths are in cm, y is up, the figure faces +z at rest with its
 arms down. The hips are as high as the lower ankle needs to stay on the ground.
@@ -84,7 +84,7 @@ def frame(i, count):
 
 def main():
     count = round(STRIDES * STRIDE * RATE)
-    lines = ["HIERARCHY", *hierarchy("Hips"), "MOTION", f"Frames: {count + 1}", f"Frame Time: {1 / RATE:.7f}"]
+    lines = ["HIERARCHY", *hierarchy("Hips"), "MOTION", f"Frames: {count + 1}", f"Frame Time: {1 / RATE:.10f}"]
     for i in range(count + 1):
         lines.append(" ".join(f"{number:.2f}".rstrip("0").rstrip(".") for number in frame(i, count)))
     text = "\n".join(lines).replace("-0 ", "0 ") + "\n"

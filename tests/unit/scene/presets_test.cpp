@@ -15,6 +15,7 @@ TEST(Presets, AreListedInOrder) {
                                              "silk",
                                              "round-table",
                                              "cape",
+                                             "walker",
                                              "sail",
                                              "trampoline",
                                              "washing-line",
