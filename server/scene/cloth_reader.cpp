@@ -140,6 +140,13 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report, M
     read_span(object, "u", region.u_min, region.u_max);
     read_span(object, "v", region.v_min, region.v_max);
     read_way(object, motions, region);
+    constexpr Range kTime{0, 1e6, "s"}, kPinStiffness{1e-3, 1e6, "N/m"};
+    object.number("from", region.from, kTime);
+    if (object.number("until", region.until, kTime) && region.until <= region.from)
+      object.report().refuse(value["until"], object.path("until"),
+                             "later than from, " + json(region.from).dump() + " s");
+    double stiffness = 0;
+    if (object.number("stiffness", stiffness, kPinStiffness)) region.stiffness = stiffness;
     return region;
   }
   std::vector<std::string_view> names;

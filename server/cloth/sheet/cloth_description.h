@@ -21,6 +21,10 @@ struct PinRegion {
   std::optional<int> obstacle = {};
   /// They go with what takes these poses, in the world, as if fixed to it; no path and no obstacle then.
   std::vector<PoseWaypoint> motion = {};
+  /// When it begins and ends to hold, s: it takes the nodes where they are then, and lets go of them at rest.
+  double from = 0, until = std::numeric_limits<double>::infinity();
+  /// A spring of this draws the nodes to where they would be held, N/m, of all of them together; > 0.
+  std::optional<double> stiffness = {};
 };
 
 /// What becomes of a cloth that no viewer sees. Like LevelPolicy it is for whoever shows a simulation: the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "cloth/kernels/node_vector.h"
@@ -9,8 +10,24 @@
 namespace weft {
 namespace {
 
-/// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays.
-std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
+/// Earlier than this before a pin's time is that time, s: what sums of steps are off by.
+constexpr double kPinTimeRounding = 1e-9;
+
+/// Adds the other node of every pair of which one is there; `nodes` ascend.
+template <class Real>
+void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
+  std::vector<std::size_t> added;
+  for (const auto& [left, right] : seam.pairs()) {
+    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
+    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
+    if (has_left != has_right) added.push_back(has_left ? right : left);
+  }
+  nodes.insert(nodes.end(), added.begin(), added.end());
+}
+
+}  // namespace
+
+std::vector<std::size_t> nodes_of(const PinRegion& region, const Grid& grid) {
   constexpr double kTolerance = 1e-9;
   const auto inside = [](double x, double min, double max) {
     return x >= min - kTolerance && x <= max + kTolerance;
@@ -32,19 +49,24 @@ std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
                      nearest(region.u_min, region.u_max, grid.cols))};
 }
 
-/// Adds the other node of every pair of which one is there; `nodes` ascend.
-template <class Real>
-void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
-  std::vector<std::size_t> added;
-  for (const auto& [left, right] : seam.pairs()) {
-    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
-    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
-    if (has_left != has_right) added.push_back(has_left ? right : left);
-  }
-  nodes.insert(nodes.end(), added.begin(), added.end());
+std::vector<PinRegion> acting(const std::vector<PinRegion>& regions, double time, bool soft) {
+  std::vector<PinRegion> found;
+  std::copy_if(regions.begin(), regions.end(), std::back_inserter(found), [&](const PinRegion& region) {
+    const double now = time + kPinTimeRounding;
+    return region.stiffness.has_value() == soft && region.from <= now && now < region.until;
+  });
+  return found;
 }
 
-}  // namespace
+double next_change(const std::vector<PinRegion>& regions, double time) {
+  double next = std::numeric_limits<double>::infinity();
+  for (const PinRegion& region : regions) {
+    for (const double change : {region.from, region.until}) {
+      if (change > time + kPinTimeRounding) next = std::min(next, change - kPinTimeRounding);
+    }
+  }
+  return next;
+}
 
 template <class Real>
 Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
@@ -54,7 +76,7 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     for (int c = 0; c < grid.cols; ++c) particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
   }
   for (const PinRegion& region : regions) {
-    std::vector<std::size_t> nodes = nodes_in(region, grid);
+    std::vector<std::size_t> nodes = nodes_of(region, grid);
     if (seam != nullptr) add_sewn(*seam, nodes);
     for (const std::size_t node : nodes) {
       particles.inverse_mass.row(0)[node] = Real(0);

@@ -9,6 +9,15 @@
 
 namespace weft {
 
+/// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays, ascending.
+std::vector<std::size_t> nodes_of(const PinRegion& region, const Grid& grid);
+
+/// The regions that hold at `time`, s: those that have a stiffness, or the others.
+std::vector<PinRegion> acting(const std::vector<PinRegion>& regions, double time, bool soft);
+
+/// When the next of them begins or ends to hold after `time`, s; infinite if none does.
+double next_change(const std::vector<PinRegion>& regions, double time);
+
 /// A cloth's pins at one level: which nodes are held, and where those go whose regions have a path or a
 /// motion or are fixed to an obstacle.
 template <class Real>

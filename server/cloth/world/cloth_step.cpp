@@ -54,6 +54,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   }
   solids_ = met_ = seen(solids);  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
+  if (soft_pins_ != nullptr && soft_pins_->begin_step(solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();
   if (gas_ && gas_->fills(time)) wake();
   work_ = 0;
