@@ -54,12 +54,13 @@ class Skeleton(CliTest):
         self.assertEqual(weft("check", scene).returncode, 0)
 
     def test_the_preset_s_cape_stays_on_the_figure(self):
-        """A round by each method. What is pinned runs away by strain; a second after the figure sets off, at once, at 2 s the
-        jerk is over, which alone strains links at the pins by v / c and more, c = sqrt(Y / density)."""
+        """A round by each method. What is pinned can run away by strain alone: nodes that the figure left behind or carried off would
+        make links several times as long, and energies of joules. The cape of 0.35 kg walks at 1 m/s: 0.17 J."""
         for method in ("bdf2", "backward_euler", "xpbd", "symplectic_euler"):
-            rows = self.stats("walker", "--level", 5, "--frames", 480, "--set", f"/integrator/type={method}")[180:]
-            self.assertLess(max(float(row["max_strain"]) for row in rows), 0.1, method)
-            self.assertLess(max(float(row["kinetic_energy"]) for row in rows), 1.0, method)  # J: 0.35 kg at 1 m/s have 0.17
+            rows = self.stats("walker", "--level", 5, "--frames", 480, "--set", f"/integrator/type={method}")
+            self.assertLess(max(float(row["max_strain"]) for row in rows), 0.5, method)
+            self.assertLess(max(float(row["mean_strain"]) for row in rows), 0.01, method)
+            self.assertLess(max(float(row["kinetic_energy"]) for row in rows), 1.0, method)
 
     def test_says_what_is_wrong(self):
         bad = self.folder / "bad.bvh"
