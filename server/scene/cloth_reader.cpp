@@ -113,9 +113,16 @@ void read_way(Object& object, MotionFiles& motions, PinRegion& region) {
     region.obstacle = obstacle;
     if (has_path) object.problem("obstacle", "is given beside path; what it is fixed to says where it goes");
   }
+  int ball = 0;
+  if (object.integer("ball", ball, {0, double(kMaxColliders - 1)})) {
+    region.ball = ball;
+    for (const char* key : {"path", "obstacle"}) {
+      if (object.has(key)) object.problem(key, "is given beside ball, which says where it goes");
+    }
+  }
   const json* motion = object.find("motion");
   if (motion == nullptr) return;
-  for (const char* key : {"path", "loop", "obstacle"}) {
+  for (const char* key : {"path", "loop", "obstacle", "ball"}) {
     if (object.has(key)) object.problem(key, "is given beside motion, which says where it goes");
   }
   PosePath node = read_motion(*motion, object.path("motion"), object.report(), motions);

@@ -61,6 +61,29 @@ Vec3 SoftPins<Real>::pull(const PinRegion& region, const Particles<Real>& partic
 }
 
 template <class Real>
+void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& solids, double time,
+                          double dt) const {
+  const auto places = kernels::components(std::as_const(places_.position));
+  for (const Held& held : held_) {
+    if (!held.region.obstacle && !held.region.ball) continue;
+    const ColliderId id = collider_of(held.region);
+    const auto solid =
+        std::find_if(solids.begin(), solids.end(), [&](const Solid& each) { return each.id == id; });
+    if (solid == solids.end() || !solid->yields()) continue;
+    move_places(time);
+    Vec3 impulse(0, 0, 0), turning(0, 0, 0);
+    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+      const Vec3 arm = places_.place - particles.place + at<Real>(places, spring.node) - solid->position;
+      const Vec3 pull = -dt * spring.stiffness * way;
+      impulse += pull;
+      turning += arm.cross(pull);
+    });
+    solid->go_on(solid->velocity + solid->inverse_mass * impulse,
+                 solid->spin + solid->inverse_inertia * turning, 1, dt);
+  }
+}
+
+template <class Real>
 void SoftPins<Real>::add_forces(const Particles<Real>& particles, const EffectContext& context,
                                 VectorField<Real>& force) const {
   move_places(context.time);

@@ -19,6 +19,8 @@ struct PinRegion {
   bool loop = false;  ///< the path or the motion begins anew when it ends; it then ends where it begins
   /// They go with this one of the simulation's obstacles, counted from 0, as if fixed to it; no path then.
   std::optional<int> obstacle = {};
+  /// The same of one of the simulation's balls. Pins on what may fly have a stiffness: it feels their pull.
+  std::optional<int> ball = {};
   /// They go with what takes these poses, in the world, as if fixed to it; no path and no obstacle then.
   std::vector<PoseWaypoint> motion = {};
   /// When it begins and ends to hold, s: it takes the nodes where they are then, and lets go of them at rest.

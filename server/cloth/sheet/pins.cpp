@@ -82,9 +82,9 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
       particles.inverse_mass.row(0)[node] = Real(0);
       set(kernels::components(particles.velocity), node, Vec3::Zero());
     }
-    if (region.obstacle) {
+    if (region.obstacle || region.ball) {
       Fixed fixed;
-      fixed.obstacle.id = kFirstObstacle + static_cast<ColliderId>(*region.obstacle);
+      fixed.obstacle.id = collider_of(region);
       for (const std::size_t node : nodes) fixed.nodes.push_back({node, Vec3::Zero()});
       fixed_.push_back(std::move(fixed));
     }

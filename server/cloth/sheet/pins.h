@@ -12,6 +12,12 @@ namespace weft {
 /// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays, ascending.
 std::vector<std::size_t> nodes_of(const PinRegion& region, const Grid& grid);
 
+/// What a region goes with that has an obstacle or a ball.
+inline ColliderId collider_of(const PinRegion& region) {
+  return region.ball ? 1 + static_cast<ColliderId>(*region.ball)
+                     : kFirstObstacle + static_cast<ColliderId>(region.obstacle.value_or(0));
+}
+
 /// The regions that hold at `time`, s: those that have a stiffness, or the others.
 std::vector<PinRegion> acting(const std::vector<PinRegion>& regions, double time, bool soft);
 

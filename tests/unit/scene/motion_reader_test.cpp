@@ -137,6 +137,34 @@ TEST_F(MotionScene, RefusesWhatWouldMoveItOtherwise) {
       "/colliders/0/velocity: is given beside a motion's file, which says where it goes\n");
 }
 
+// A quarter of 2 kg / (0.02 s)^2 is 1250 N/m.
+TEST(PinOnABody, IsSoftEnough) {
+  const auto problems = [](const json& pin) {
+    const json scene = {
+        {"cloths", {{{"pins", {pin}}}}},
+        {"time_step", 0.02},
+        {"colliders",
+         {{{"type", "ball"}, {"radius", 1}, {"position", {0, 0, 0}}, {"motion", "dynamic"}, {"mass", 2}},
+          {{"type", "box"}, {"size", {1, 1, 1}}, {"position", {0, 0, 0}}, {"mass", 0.5}}}}};
+    return problems_of(parse(scene.dump(), "sent"));
+  };
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"ball", 0}, {"stiffness", 1250}}), "");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"ball", 0}, {"stiffness", 1251}}),
+            "/cloths/0/pins/0/ball: is 0; that one has 2.0 kg, and all pins on it a stiffness of 1251.0 N/m; "
+            "at most "
+            "1250.0 N/m are allowed, a quarter of mass / time_step^2\n");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"ball", 0}}),
+            "/cloths/0/pins/0/ball: is 0; that one may fly, and a pin on it needs a stiffness\n");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"obstacle", 0}}),
+            "/cloths/0/pins/0/obstacle: is 0; that one may fly, and a pin on it needs a stiffness\n");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"ball", 1}, {"stiffness", 1}}),
+            "/cloths/0/pins/0/ball: is 1; the scene has 1 balls, counted from 0\n");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"ball", 0}, {"obstacle", 0}, {"stiffness", 1}}),
+            "/cloths/0/pins/0/obstacle: is given beside ball, which says where it goes\n");
+  EXPECT_EQ(problems({{"u", 0}, {"v", 0}, {"from", 2}, {"until", 1}}),
+            "/cloths/0/pins/0/until: is 1; must be later than from, 2.0 s\n");
+}
+
 // As with meshes: what a client sends names no files, but built-in motions.
 TEST(SentScene, NamesNoMotionFiles) {
   const auto sent = [](const json& motion) {
