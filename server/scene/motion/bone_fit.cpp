@@ -32,7 +32,7 @@ double quantile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-constexpr std::size_t kFewest = 8;  ///< vertices that tell a radius
+constexpr std::size_t kFewestVertices = 8;  ///< vertices that tell a radius
 
 /// Of the vertices beside the bone that are nearest to it of all the joint's bones.
 std::optional<double> radius_by_skin(const std::vector<Vec3>& vertices, const std::vector<Bone>& bones,
@@ -46,13 +46,13 @@ std::optional<double> radius_by_skin(const std::vector<Vec3>& vertices, const st
                                      [&](const Bone& other) { return own <= other.distance(vertex); });
     if (nearest) distances.push_back(bone.distance_to_line(vertex));
   }
-  if (distances.size() < kFewest) return {};
+  if (distances.size() < kFewestVertices) return {};
   return quantile(distances, share);
 }
 
 /// Of a joint without children: through the middle of its vertices, as far as they reach but for a radius.
 std::optional<Bone> bone_of_skin(const std::vector<Vec3>& vertices, double share) {
-  if (vertices.size() < kFewest) return {};
+  if (vertices.size() < kFewestVertices) return {};
   Vec3 middle(0, 0, 0);
   for (const Vec3& vertex : vertices) middle += vertex / static_cast<double>(vertices.size());
   if (!(middle.norm() > 0)) return {};
