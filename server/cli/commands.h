@@ -11,6 +11,7 @@ void add_fabric(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_skeleton(CLI::App& app, int& exit_code);
 void add_client(CLI::App& app, int& exit_code);
 void add_config(CLI::App& app, int& exit_code);
 void add_version(CLI::App& app, int& exit_code);

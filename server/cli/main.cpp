@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   weft::cli::add_cost(app, exit_code);
   weft::cli::add_fabric(app, exit_code);
   weft::cli::add_check(app, exit_code);
+  weft::cli::add_skeleton(app, exit_code);
   weft::cli::add_client(app, exit_code);
   weft::cli::add_bench(app, exit_code);
   weft::cli::add_replay(app, exit_code);

@@ -114,8 +114,36 @@ void read_span(Object& pin, const char* key, double& min, double& max) {
   }
 }
 
+/// What a region goes with: at most one of path, obstacle and motion.
+void read_way(Object& object, MotionFiles& motions, PinRegion& region) {
+  const bool has_path = object.has("path");
+  WaypointPath way = read_path(object, "offset");
+  region.path = std::move(way.points);
+  region.loop = way.loop;
+  int obstacle = 0;
+  if (object.integer("obstacle", obstacle, {0, double(kMaxColliders - 1)})) {
+    region.obstacle = obstacle;
+    if (has_path) object.problem("obstacle", "is given beside path; what it is fixed to says where it goes");
+  }
+  int ball = 0;
+  if (object.integer("ball", ball, {0, double(kMaxColliders - 1)})) {
+    region.ball = ball;
+    for (const char* key : {"path", "obstacle"}) {
+      if (object.has(key)) object.problem(key, "is given beside ball, which says where it goes");
+    }
+  }
+  const json* motion = object.find("motion");
+  if (motion == nullptr) return;
+  for (const char* key : {"path", "loop", "obstacle", "ball"}) {
+    if (object.has(key)) object.problem(key, "is given beside motion, which says where it goes");
+  }
+  PosePath node = read_motion(*motion, object.path("motion"), object.report(), motions);
+  region.motion = std::move(node.points);
+  region.loop = node.loop;
+}
+
 /// A corner's or an edge's name, or {"u", "v", "path"}.
-PinRegion read_pin(const json& value, const std::string& path, Report& report) {
+PinRegion read_pin(const json& value, const std::string& path, Report& report, MotionFiles& motions) {
   struct Named {
     const char* name;
     PinRegion region;
@@ -130,15 +158,14 @@ PinRegion read_pin(const json& value, const std::string& path, Report& report) {
     Object object(value, path, report);
     read_span(object, "u", region.u_min, region.u_max);
     read_span(object, "v", region.v_min, region.v_max);
-    WaypointPath way = read_path(object, "offset");
-    region.path = std::move(way.points);
-    region.loop = way.loop;
-    int obstacle = 0;
-    if (object.integer("obstacle", obstacle, {0, double(kMaxColliders - 1)})) {
-      region.obstacle = obstacle;
-      if (!region.path.empty())
-        object.problem("obstacle", "is given beside path; what it is fixed to says where it goes");
-    }
+    read_way(object, motions, region);
+    constexpr Range kTime{0, 1e6, "s"}, kPinStiffness{1e-3, 1e6, "N/m"};
+    object.number("from", region.from, kTime);
+    if (object.number("until", region.until, kTime) && region.until <= region.from)
+      object.report().refuse(value["until"], object.path("until"),
+                             "later than from, " + json(region.from).dump() + " s");
+    double stiffness = 0;
+    if (object.number("stiffness", stiffness, kPinStiffness)) region.stiffness = stiffness;
     return region;
   }
   std::vector<std::string_view> names;
@@ -213,7 +240,8 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-ClothDescription read_cloth(const json& value, const std::string& path, Report& report, Look& look) {
+ClothDescription read_cloth(const json& value, const std::string& path, Report& report, MotionFiles& motions,
+                            Look& look) {
   constexpr Range kBaseCells{1, 32};
   constexpr Range kPerturbation{0, 100, "m"};
   ClothDescription cloth;
@@ -255,7 +283,7 @@ ClothDescription read_cloth(const json& value, const std::string& path, Report& 
   if (object.choice("discretization", {"paper", "continuum"}) == 0)
     cloth.discretization = Discretization::paper;
   object.each("pins", 0, kMaxPins, [&](const json& pin, const std::string& at) {
-    cloth.pins.push_back(read_pin(pin, at, report));
+    cloth.pins.push_back(read_pin(pin, at, report, motions));
   });
   if (const json* relevance = object.find("relevance"))
     read_relevance(*relevance, object.path("relevance"), report, cloth.relevance);

@@ -23,13 +23,45 @@ void read_position(Object& object, Vec3& position) {
   object.vector("position", position, kPosition);
 }
 
-BallDescription read_ball(Object& object) {
+/// Whether a skeleton's node carries it: "motion" is an object then.
+bool is_carried(Object& object) {
+  const json* motion = object.find("motion");
+  return motion != nullptr && motion->is_object();
+}
+
+/// The node's way. What would move the collider otherwise is refused.
+PosePath read_way_of_node(Object& object, MotionFiles& motions) {
+  for (const char* key : {"path", "loop", "velocity", "spin"}) {
+    if (object.has(key)) object.problem(key, "is given beside a motion's file, which says where it goes");
+  }
+  return read_motion(*object.find("motion"), object.path("motion"), object.report(), motions);
+}
+
+/// Whether it is dynamic.
+bool read_dynamic(Object& object) {
+  return !is_carried(object) && object.choice("motion", {"kinematic", "dynamic"}) == 1;
+}
+
+void carry(Object& object, MotionFiles& motions, BallDescription& ball) {
+  object.vector("position", ball.position, kPosition);  // as seen from the node
+  const PosePath way = read_way_of_node(object, motions);
+  for (const PoseWaypoint& point : way.points)
+    ball.path.push_back({point.time, point.pose.position + point.pose.orientation * ball.position});
+  ball.loop = way.loop;
+  if (!ball.path.empty()) ball.position = ball.path.front().position;
+}
+
+BallDescription read_ball(Object& object, MotionFiles& motions) {
   BallDescription ball;
   object.require("radius", kLength);
   object.number("radius", ball.radius, kLength);
-  if (object.choice("motion", {"kinematic", "dynamic"}) == 1) ball.motion = BallDescription::Motion::dynamic;
+  if (read_dynamic(object)) ball.motion = BallDescription::Motion::dynamic;
   object.number("mass", ball.mass, kMass);
   object.number("friction", ball.friction, kFriction);
+  if (is_carried(object)) {
+    carry(object, motions, ball);
+    return ball;
+  }
   read_position(object, ball.position);
   object.vector("velocity", ball.velocity, kVelocity);
   if (object.has("path")) {
@@ -92,10 +124,28 @@ ObstacleDescription read_surface(Object& object, bool convex, const SceneFolder&
   return obstacle;
 }
 
+/// Its position and orientation are as seen from the node.
+void carry(Object& object, MotionFiles& motions, ObstacleDescription& obstacle) {
+  object.vector("position", obstacle.position, kPosition);
+  PosePath way = read_way_of_node(object, motions);
+  const Quaternion own = std::visit(
+      [](const auto& shape) {
+        if constexpr (requires { shape.orientation; }) return shape.orientation;
+        return Quaternion::Identity();
+      },
+      obstacle.shape);
+  for (PoseWaypoint& point : way.points) {
+    point.pose.position += point.pose.orientation * obstacle.position;
+    point.pose.orientation = (point.pose.orientation * own).normalized();
+  }
+  obstacle.path = std::move(way.points);
+  obstacle.loop = way.loop;
+}
+
 /// What makes it a body: a mass, or that it flies.
 void read_body(Object& object, ObstacleDescription& obstacle) {
   BodyDescription body;
-  body.dynamic = object.choice("motion", {"kinematic", "dynamic"}) == 1;
+  body.dynamic = read_dynamic(object);
   object.number("mass", body.mass, kMass);
   object.vector("velocity", body.velocity, kVelocity);
   object.vector("spin", body.spin, kSpin);
@@ -103,7 +153,7 @@ void read_body(Object& object, ObstacleDescription& obstacle) {
     object.problem("path", "is given for a dynamic obstacle; only kinematic ones follow a path");
   }
   for (const char* key : {"velocity", "spin"}) {
-    if (!body.dynamic && object.has(key)) {
+    if (!body.dynamic && !is_carried(object) && object.has(key)) {
       object.problem(key, "is given for an obstacle whose motion is not \"dynamic\"");
     }
   }
@@ -123,7 +173,7 @@ void centre(MeshDescription& mesh, ObstacleDescription& obstacle) {
 }  // namespace
 
 void read_collider(const json& value, const std::string& path, Report& report, const SceneFolder& folder,
-                   SimulationDescription& simulation) {
+                   MotionFiles& motions, SimulationDescription& simulation) {
   Object object(value, path, report);
   object.require("type", "\"ball\", \"plane\", \"box\", \"capsule\", \"convex\" or \"mesh\"");
   const int type = object.choice(
@@ -134,14 +184,18 @@ void read_collider(const json& value, const std::string& path, Report& report, c
     return;
   }
   if (type == 0) {
-    simulation.balls.push_back(read_ball(object));
+    simulation.balls.push_back(read_ball(object, motions));
     return;
   }
   ObstacleDescription obstacle = type == 1   ? read_plane(object)
                                  : type == 2 ? read_box(object)
                                  : type == 3 ? read_capsule(object)
                                              : read_surface(object, type == 4, folder, simulation);
-  read_position(object, obstacle.position);
+  if (type != 1 && is_carried(object)) {
+    carry(object, motions, obstacle);
+  } else {
+    read_position(object, obstacle.position);
+  }
   if (!obstacle.path.empty()) obstacle.position = obstacle.path.front().pose.position;
   object.number("friction", obstacle.friction, kFriction);
   if (type != 1) read_body(object, obstacle);

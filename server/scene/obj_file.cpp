@@ -4,42 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "scene/beside_file.h"
+
 namespace weft::scene {
 namespace {
 
-namespace fs = std::filesystem;
-
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-/// The file's place, which no scene can make one outside its own folder.
-fs::path place_of(const fs::path& folder, const std::string& file) {
-  const fs::path relative(file);
-  const bool upwards = std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end();
-  if (file.empty() || relative.is_absolute() || upwards) {
-    refuse("must be a path within the scene file's folder, without \"..\"");
-  }
-  std::error_code error;
-  const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
-  fs::path place = fs::canonical(home / relative, error);
-  if (error) refuse("cannot be read: " + error.message());
-  if (std::mismatch(home.begin(), home.end(), place.begin(), place.end()).first != home.end()) {
-    refuse("is a link out of the scene file's folder");
-  }
-  if (!fs::is_regular_file(place, error)) refuse("is not a file");
-  if (fs::file_size(place, error) > kMaxObjBytes) {
-    refuse("has " + std::to_string(fs::file_size(place, error)) + " bytes; at most " +
-           std::to_string(kMaxObjBytes) + " are allowed");
-  }
-  return place;
-}
 
 /// How many corners a line gives a face: the words after its "f"; 0 if it is another line.
 std::size_t corners_of(std::string_view line) {
@@ -103,11 +77,8 @@ TriangleList parse_obj(const std::string& text) {
   return list;
 }
 
-TriangleList read_obj_file(const fs::path& folder, const std::string& file) {
-  std::ifstream opened(place_of(folder, file), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(opened), {}};
-  if (!opened) refuse(std::string("cannot be read: ") + std::strerror(errno));
-  return parse_obj(text);
+TriangleList read_obj_file(const std::filesystem::path& folder, const std::string& file) {
+  return parse_obj(read_beside(folder, file, kMaxObjBytes));
 }
 
 }  // namespace weft::scene

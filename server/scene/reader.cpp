@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include "cloth/forces/soft_pins.h"
 #include "scene/document.h"
 #include "scene/readers.h"
 
@@ -41,11 +42,11 @@ void read_camera(const json& value, const std::string& path, Report& report, Sce
   }
 }
 
-std::vector<ClothDescription> read_cloths(Object& scene, std::vector<Look>& looks) {
+std::vector<ClothDescription> read_cloths(Object& scene, MotionFiles& motions, std::vector<Look>& looks) {
   std::vector<ClothDescription> cloths;
   scene.require("cloths", "an array of cloths");
   scene.each("cloths", 1, kMaxCloths, [&](const json& value, const std::string& path) {
-    ClothDescription cloth = read_cloth(value, path, scene.report(), looks.emplace_back());
+    ClothDescription cloth = read_cloth(value, path, scene.report(), motions, looks.emplace_back());
     const auto same =
         std::find_if(cloths.begin(), cloths.end(), [&](const auto& o) { return o.name == cloth.name; });
     if (same != cloths.end()) {
@@ -76,19 +77,52 @@ std::vector<EffectDescription> read_effects(Object& scene) {
   return effects;
 }
 
-/// Pins may only be fixed to obstacles that there are, and that nothing but themselves moves.
+/// A pin on a collider that may fly: it must be soft, and all of them on it softer than the step bears. `is`
+/// begins what is said of it.
+void check_pull(const PinRegion& pin, const SimulationDescription& simulation, const std::string& at,
+                const std::string& is, double mass, Report& report) {
+  if (!pin.stiffness) {
+    report.add(at, is + "that one may fly, and a pin on it needs a stiffness");
+    return;
+  }
+  double all = 0;
+  for (const ClothDescription& cloth : simulation.cloths) {
+    for (const PinRegion& other : cloth.pins) {
+      if (other.obstacle == pin.obstacle && other.ball == pin.ball) all += other.stiffness.value_or(0);
+    }
+  }
+  const double most = kPinBound * mass / (simulation.time_step * simulation.time_step);
+  if (all > most) {
+    report.add(at, is + "that one has " + json(mass).dump() + " kg, and all pins on it a stiffness of " +
+                       json(all).dump() + " N/m; at most " + json(most).dump() +
+                       " N/m are allowed, a quarter of mass / time_step^2");
+  }
+}
+
+/// Pins may only be fixed to colliders that there are, and those on what may fly have a stiffness.
 void check_pins(const SimulationDescription& simulation, Report& report) {
   for (std::size_t c = 0; c < simulation.cloths.size(); ++c) {
     const std::vector<PinRegion>& pins = simulation.cloths[c].pins;
     for (std::size_t p = 0; p < pins.size(); ++p) {
+      const std::string pin = "/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p);
+      if (pins[p].ball) {
+        const auto ball = static_cast<std::size_t>(*pins[p].ball);
+        const std::string is = "is " + std::to_string(ball) + "; ";
+        if (ball >= simulation.balls.size()) {
+          report.add(pin + "/ball", is + "the scene has " + std::to_string(simulation.balls.size()) +
+                                        " balls, counted from 0");
+        } else {
+          check_pull(pins[p], simulation, pin + "/ball", is, simulation.balls[ball].mass, report);
+        }
+      }
       if (!pins[p].obstacle) continue;
-      const std::string at = "/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p) + "/obstacle";
+      const std::string at = pin + "/obstacle";
       const std::string is = "is " + std::to_string(*pins[p].obstacle) + "; ";
       if (*pins[p].obstacle >= static_cast<int>(simulation.obstacles.size())) {
         report.add(at, is + "the scene has " + std::to_string(simulation.obstacles.size()) +
                            " colliders that are no balls, counted from 0");
-      } else if (simulation.obstacles[static_cast<std::size_t>(*pins[p].obstacle)].body) {
-        report.add(at, is + "that one has a mass, which pins would not feel");
+      } else if (const auto& body = simulation.obstacles[static_cast<std::size_t>(*pins[p].obstacle)].body) {
+        check_pull(pins[p], simulation, at, is, body->mass, report);
       }
     }
   }
@@ -129,13 +163,13 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
   {
     Object object(document, "", report);
     SimulationDescription& simulation = scene.simulation;
+    MotionFiles motions(folder);
     object.string("title", scene.title, kTitleLength);
     scene.notes = read_notes(object);
-    simulation.cloths = read_cloths(object, scene.looks);
+    simulation.cloths = read_cloths(object, motions, scene.looks);
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
-      read_collider(value, path, report, folder, simulation);
+      read_collider(value, path, report, folder, motions, simulation);
     });
-    check_pins(simulation, report);
     simulation.effects = read_effects(object);
     check_sewn(simulation, report);
     if (const json* wind = object.find("wind")) {
@@ -151,6 +185,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
       scene.quality = read_quality(*quality, "/quality", report);
     }
     object.number("time_step", simulation.time_step, kTimeStep);
+    check_pins(simulation, report);
     object.number("sleep_speed", simulation.sleep_speed, kSleepSpeed);
     if (const json* policy = object.find("level_policy")) {
       simulation.level_policy = read_level_policy(*policy, "/level_policy", report);

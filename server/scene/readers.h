@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "scene/motion/motion_files.h"
 #include "scene/object.h"
 
 namespace weft::scene {
@@ -26,7 +27,8 @@ inline constexpr Range kLevel{kMinLevel, kMaxLevel};
 inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
 
 /// A cloth, and what it looks like.
-ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report, Look& look);
+ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report,
+                            MotionFiles& motions, Look& look);
 /// `value` is nullptr where the scene does not say; then, and for what it leaves out, the look is that of the
 /// fabric that `material` names, if there is one and it does.
 Look read_look(const nlohmann::json* value, const std::string& path, Report& report,
@@ -35,7 +37,7 @@ Look read_look(const nlohmann::json* value, const std::string& path, Report& rep
 using SceneFolder = std::optional<std::filesystem::path>;
 /// Adds a ball or an obstacle to the simulation.
 void read_collider(const nlohmann::json& value, const std::string& path, Report& report,
-                   const SceneFolder& folder, SimulationDescription& simulation);
+                   const SceneFolder& folder, MotionFiles& motions, SimulationDescription& simulation);
 /// A collider's surface of at most `room` triangles: that of a `mesh`, or the hull of a `convex` body.
 MeshDescription read_mesh(Object& object, bool convex, std::size_t room, const SceneFolder& folder);
 /// {"axis", "degrees"} or {"quaternion": [w, x, y, z]}.
@@ -52,6 +54,14 @@ WaypointPath read_path(Object& owner, const char* place);
 /// The same of an obstacle. Its points have the `orientation` that they do not give themselves; without one
 /// they cannot have any.
 void read_pose_path(Object& owner, const Quaternion* orientation, ObstacleDescription& obstacle);
+/// A node's way through a clip of a motion's file: what "motion" says where it is an object. No points, and
+/// problems, if it cannot be read.
+struct PosePath {
+  std::vector<PoseWaypoint> points;
+  bool loop = false;
+};
+PosePath read_motion(const nlohmann::json& value, const std::string& path, Report& report,
+                     MotionFiles& motions);
 std::optional<EffectDescription> read_effect(const nlohmann::json& value, const std::string& path,
                                              Report& report);
 Wind read_wind(const nlohmann::json& value, const std::string& path, Report& report);

@@ -9,7 +9,7 @@ import {openPage, startServer, until} from './harness.mjs';
 const folder = process.env.WEFT_SCREENSHOTS;
 /** Each preset at its own moment, s, and, where its own camera is too near or too far for a picture of all of it, from another distance, m. */
 const kGallery = {
-  'flag': [3], 'flag-gusts': [4], 'curtain': [3], 'fan': [4], 'tablecloth': [3], 'silk': [6], 'round-table': [4], 'cape': [7.5], 'sail': [6],
+  'flag': [3], 'flag-gusts': [4], 'curtain': [3], 'fan': [4], 'tablecloth': [3], 'silk': [6], 'round-table': [4], 'cape': [7.5], 'walker': [7.5], 'sail': [6],
   'trampoline': [1.1], 'washing-line': [4], 'towel': [7], 'hide': [4], 'cushion': [1.3], 'pillow': [4], 'paper-screen': [0.65], 'swing': [1.2],
   'zheng2020-wind': [8, 2], 'zheng2020-distance': [5, 2.4], 'zheng2020-ball': [9, 1.9],
 };

@@ -13,7 +13,7 @@ from cli import CliTest, LIMIT_S, WEFT, weft
 
 BAD_SCENES = pathlib.Path(os.environ["WEFT_BAD_SCENES"])
 
-PRESETS = ["flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk", "round-table", "cape", "sail", "trampoline", "washing-line",
+PRESETS = ["flag", "flag-gusts", "curtain", "fan", "tablecloth", "silk", "round-table", "cape", "walker", "sail", "trampoline", "washing-line",
            "towel", "hide", "cushion", "pillow", "paper-screen", "swing",
            "zheng2020-wind", "zheng2020-distance", "zheng2020-ball"]
 

@@ -1,4 +1,5 @@
 """The recipes of protocol/clients/README.md and the examples of the other READMEs, run as they stand there against a real server."""
+import json
 import os
 import pathlib
 import re
@@ -43,13 +44,13 @@ class Recipes:
         self.server = Server("flag")
         self.addCleanup(self.server.end)
 
-    def run_recipe(self, name, **where):
+    def run_recipe(self, name, served=True, environment=None, **where):
         code = recipes(self.language, **where)[name]
         self.assertLessEqual(len([line for line in code.splitlines() if line.strip()]), MOST_LINES)
-        self.assertIn(ADDRESS, code)
+        self.assertEqual(ADDRESS in code, served)
         program = self.folder / f"recipe.{self.suffix}"
         program.write_text(code.replace(ADDRESS, f"127.0.0.1:{self.server.port}"))
-        done = subprocess.run([*self.command, program], cwd=self.folder, env=self.environment, capture_output=True, text=True,
+        done = subprocess.run([*self.command, program], cwd=self.folder, env={**self.environment, **(environment or {})}, capture_output=True, text=True,
                               timeout=LIMIT_S)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return numbers(done.stdout)
@@ -92,7 +93,7 @@ class Python(Recipes, unittest.TestCase):
 
     def test_all_are_tested(self):
         self.assertEqual(set(recipes("python")), {"", "Follow a camera", "Throw balls", "Drive wind from data", "Batch runs",
-                                                  "Record a data set"})
+                                                  "Record a data set", "A cape on a walking figure"})
 
     def test_asyncio(self):
         (step, *shape), = self.run_recipe("")
@@ -104,6 +105,16 @@ class Python(Recipes, unittest.TestCase):
         self.assertEqual([speed for speed, *_ in told], [1, 4, 8])
         lowest, _, highest = (y for _, _, y, _ in told)
         self.assertGreater(highest, lowest + 0.2)  # m: the stronger the wind, the less a flag of 1.6 m hangs down
+
+    def test_a_cape_on_a_walking_figure(self):
+        shutil.copy(ROOT / "server" / "scene" / "presets" / "walk.bvh", self.folder)
+        os.symlink(os.environ["WEFT_BINARY"], self.folder / "weft")
+        environment = {"PATH": f"{self.folder}:{os.environ['PATH']}"}
+        told = self.run_recipe("A cape on a walking figure", served=False, environment=environment)
+        self.assertEqual(told[0][:2], [300, 5])  # frames, s
+        self.assertGreater((self.folder / "walk.glb").stat().st_size, 300 * 65 * 65 * 3)  # moves of 300 frames
+        colliders = json.loads((self.folder / "walk.json").read_text())["colliders"]
+        self.assertEqual(len(colliders), 22)  # joints of the figure, the hips and the chest with three bones
 
     def test_record_a_data_set(self):
         self.run_recipe("Record a data set")

@@ -7,6 +7,11 @@ words_of() {
     scenes) quoted server/scene/scene.schema.json ;;
     tokens) printf '"%s"\n' tokens without_token role token sha256 name view control admin ;;
     meshes) printf '"\\x0a%s "\n' v vt vn f l p t g o s vw usemtl mtllib ;;
+    motions)
+      printf '"%s"\n' HIERARCHY ROOT JOINT OFFSET CHANNELS 'End Site' MOTION Frames: 'Frame Time:' Xposition Zrotation Yrotation
+      printf '"\\"%s\\""\n' asset version buffers byteLength bufferViews byteOffset byteStride accessors componentType count type nodes children \
+        translation rotation scale matrix animations samplers channels input output interpolation CUBICSPLINE target path skins joints
+      ;;
     requests)
       printf '"\\x0d\\x0a%s: "\n' Host Origin Authorization Connection Upgrade Sec-WebSocket-Key Sec-WebSocket-Protocol \
         Sec-WebSocket-Version Content-Length Transfer-Encoding

@@ -130,7 +130,7 @@ class Stopping(unittest.IsolatedAsyncioTestCase):
         server = self.start()
         status, _, body = server.get("/v1/scenes")
         self.assertEqual(status, 200)
-        for preset in [b"flag", b"flag-gusts", b"curtain", b"fan", b"tablecloth", b"silk", b"round-table", b"cape", b"sail", b"trampoline",
+        for preset in [b"flag", b"flag-gusts", b"curtain", b"fan", b"tablecloth", b"silk", b"round-table", b"cape", b"walker", b"sail", b"trampoline",
                        b"washing-line", b"towel", b"swing",
                        b"zheng2020-wind", b"zheng2020-distance", b"zheng2020-ball"]:
             self.assertIn(b'"' + preset + b'"', body)

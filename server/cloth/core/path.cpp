@@ -19,7 +19,8 @@ template <class Point>
 Stretch<Point> stretch_at(const std::vector<Point>& path, double time, bool loops) {
   const double first = path.front().time, last = path.back().time;
   if (loops && time > last && last > first) time = first + std::fmod(time - first, last - first);
-  const auto next = std::find_if(path.begin(), path.end(), [&](const Point& p) { return p.time > time; });
+  const auto next = std::upper_bound(path.begin(), path.end(), time,
+                                     [](double t, const Point& point) { return t < point.time; });
   if (next == path.begin()) return {*next, *next, 0};
   const Point& before = *std::prev(next);
   if (next == path.end()) return {before, before, 0};

@@ -16,9 +16,17 @@ namespace weft {
 struct PinRegion {
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< in [0, 1]
   std::vector<Waypoint> path = {};  ///< how far they are from where they start, if they are moved
-  bool loop = false;                ///< the path begins anew when it ends; it then ends where it begins
+  bool loop = false;  ///< the path or the motion begins anew when it ends; it then ends where it begins
   /// They go with this one of the simulation's obstacles, counted from 0, as if fixed to it; no path then.
   std::optional<int> obstacle = {};
+  /// The same of one of the simulation's balls. Pins on what may fly have a stiffness: it feels their pull.
+  std::optional<int> ball = {};
+  /// They go with what takes these poses, in the world, as if fixed to it; no path and no obstacle then.
+  std::vector<PoseWaypoint> motion = {};
+  /// When it begins and ends to hold, s: it takes the nodes where they are then, and lets go of them at rest.
+  double from = 0, until = std::numeric_limits<double>::infinity();
+  /// A spring of this draws the nodes to where they would be held, N/m, of all of them together; > 0.
+  std::optional<double> stiffness = {};
 };
 
 /// What becomes of a cloth that no viewer sees. Like LevelPolicy it is for whoever shows a simulation: the

@@ -11,7 +11,7 @@ bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<
                             double dt) {
   begin_ = time;
   step_ = dt;
-  bool move = !carried_.empty() && time < end_of_motion_;
+  bool move = (!carried_.empty() || !led_.empty()) && time < end_of_motion_;
   for (Fixed& fixed : fixed_) {
     const auto found = std::find_if(solids.begin(), solids.end(),
                                     [&](const Solid& solid) { return solid.id == fixed.obstacle.id; });
@@ -40,6 +40,12 @@ void Pins<Real>::carry(Particles<Real>& particles, double time) const {
       set(kernels::components(particles.position), carried.node, carried.origin + offset - particles.place);
     }
   }
+  for (const Led& led : led_) {
+    const Pose now = along_path(led.motion, time, led.loops);
+    for (const Carried& carried : led.nodes)
+      set(kernels::components(particles.position), carried.node,
+          Vec3(place(now, carried.origin) - particles.place));
+  }
   for (const Fixed& fixed : fixed_) {
     if (!fixed.placed || !fixed.obstacle.moves()) continue;
     const PlacedShape now = at(fixed, time);
@@ -54,15 +60,23 @@ template <class Real>
 double Pins<Real>::longest_way(double begin, double end) const {
   constexpr int kSections = 8;
   double longest = 0;
-  for (const Path& path : carried_) {
+  const auto follow = [&](const auto& place_at) {
     double way = 0;
-    Vec3 before = along_path(path.points, begin, path.loops);
+    Vec3 before = place_at(begin);
     for (int i = 1; i <= kSections; ++i) {
-      const Vec3 after = along_path(path.points, begin + (end - begin) * i / kSections, path.loops);
+      const Vec3 after = place_at(begin + (end - begin) * i / kSections);
       way += (after - before).norm();
       before = after;
     }
     longest = std::max(longest, way);
+  };
+  for (const Path& path : carried_) {
+    follow([&](double time) { return along_path(path.points, time, path.loops); });
+  }
+  for (const Led& led : led_) {
+    for (const Carried& carried : led.nodes) {
+      follow([&](double time) { return place(along_path(led.motion, time, led.loops), carried.origin); });
+    }
   }
   return longest;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "cloth/kernels/node_vector.h"
@@ -9,8 +10,24 @@
 namespace weft {
 namespace {
 
-/// The nodes a region holds: all in it, or the nearest one. Indices into the grid's arrays.
-std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
+/// Earlier than this before a pin's time is that time, s: what sums of steps are off by.
+constexpr double kPinTimeRounding = 1e-9;
+
+/// Adds the other node of every pair of which one is there; `nodes` ascend.
+template <class Real>
+void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
+  std::vector<std::size_t> added;
+  for (const auto& [left, right] : seam.pairs()) {
+    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
+    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
+    if (has_left != has_right) added.push_back(has_left ? right : left);
+  }
+  nodes.insert(nodes.end(), added.begin(), added.end());
+}
+
+}  // namespace
+
+std::vector<std::size_t> nodes_of(const PinRegion& region, const Grid& grid) {
   constexpr double kTolerance = 1e-9;
   const auto inside = [](double x, double min, double max) {
     return x >= min - kTolerance && x <= max + kTolerance;
@@ -32,19 +49,24 @@ std::vector<std::size_t> nodes_in(const PinRegion& region, const Grid& grid) {
                      nearest(region.u_min, region.u_max, grid.cols))};
 }
 
-/// Adds the other node of every pair of which one is there; `nodes` ascend.
-template <class Real>
-void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
-  std::vector<std::size_t> added;
-  for (const auto& [left, right] : seam.pairs()) {
-    const bool has_left = std::binary_search(nodes.begin(), nodes.end(), left);
-    const bool has_right = std::binary_search(nodes.begin(), nodes.end(), right);
-    if (has_left != has_right) added.push_back(has_left ? right : left);
-  }
-  nodes.insert(nodes.end(), added.begin(), added.end());
+std::vector<PinRegion> acting(const std::vector<PinRegion>& regions, double time, bool soft) {
+  std::vector<PinRegion> found;
+  std::copy_if(regions.begin(), regions.end(), std::back_inserter(found), [&](const PinRegion& region) {
+    const double now = time + kPinTimeRounding;
+    return region.stiffness.has_value() == soft && region.from <= now && now < region.until;
+  });
+  return found;
 }
 
-}  // namespace
+double next_change(const std::vector<PinRegion>& regions, double time) {
+  double next = std::numeric_limits<double>::infinity();
+  for (const PinRegion& region : regions) {
+    for (const double change : {region.from, region.until}) {
+      if (change > time + kPinTimeRounding) next = std::min(next, change - kPinTimeRounding);
+    }
+  }
+  return next;
+}
 
 template <class Real>
 Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<Real>& particles,
@@ -54,28 +76,39 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     for (int c = 0; c < grid.cols; ++c) particles.inverse_mass.at(r, c) = Real(1) / particles.mass.at(r, c);
   }
   for (const PinRegion& region : regions) {
-    std::vector<std::size_t> nodes = nodes_in(region, grid);
+    std::vector<std::size_t> nodes = nodes_of(region, grid);
     if (seam != nullptr) add_sewn(*seam, nodes);
     for (const std::size_t node : nodes) {
       particles.inverse_mass.row(0)[node] = Real(0);
       set(kernels::components(particles.velocity), node, Vec3::Zero());
     }
-    if (region.obstacle) {
+    if (region.obstacle || region.ball) {
       Fixed fixed;
-      fixed.obstacle.id = kFirstObstacle + static_cast<ColliderId>(*region.obstacle);
+      fixed.obstacle.id = collider_of(region);
       for (const std::size_t node : nodes) fixed.nodes.push_back({node, Vec3::Zero()});
       fixed_.push_back(std::move(fixed));
     }
-    if (region.path.empty()) continue;
-    Path path{region.path, region.loop, {}};
-    const Vec3 offset = along_path(region.path, time, region.loop);
-    for (const std::size_t node : nodes) {
-      const Vec3 local = weft::at<Real>(kernels::components(particles.position), node);
-      path.nodes.push_back({node, particles.place + local - offset});
+    const auto world = [&](std::size_t node) -> Vec3 {
+      return particles.place + weft::at<Real>(kernels::components(particles.position), node);
+    };
+    const auto moves_until = [&](double end) {
+      end_of_motion_ = std::max(end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : end);
+    };
+    if (!region.path.empty()) {
+      Path path{region.path, region.loop, {}};
+      const Vec3 offset = along_path(region.path, time, region.loop);
+      for (const std::size_t node : nodes) path.nodes.push_back({node, world(node) - offset});
+      moves_until(region.path.back().time);
+      carried_.push_back(std::move(path));
     }
-    end_of_motion_ = std::max(
-        end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : region.path.back().time);
-    carried_.push_back(std::move(path));
+    if (!region.motion.empty()) {
+      Led led{region.motion, region.loop, {}};
+      const Pose pose = along_path(region.motion, time, region.loop);
+      for (const std::size_t node : nodes)
+        led.nodes.push_back({node, pose.orientation.conjugate() * (world(node) - pose.position)});
+      moves_until(region.motion.back().time);
+      led_.push_back(std::move(led));
+    }
   }
 }
 

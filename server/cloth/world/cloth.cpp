@@ -134,6 +134,7 @@ bool Cloth<Real>::apply_pending_level() {
 
 template <class Real>
 void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
+  const std::vector<Vec3> pulled = pulls();
   level_ = level;
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
@@ -141,7 +142,7 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
     seam_.emplace(particles_.grid());
     seam_->join(particles_);
   }
-  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
+  hold(pulled);
   if (walls_) take_over_walls();
   make_springs();
   earlier_contacts_ = contact_counters();
@@ -279,8 +280,10 @@ const std::vector<Grab>& Cloth<Real>::grabs() const {
 
 template <class Real>
 void Cloth<Real>::pin(const Vec2& at) {
+  std::vector<Vec3> pulled = pulls();
   description_.pins.push_back({at.x(), at.x(), at.y(), at.y()});
-  set_pins();
+  pulled.emplace_back(0, 0, 0);
+  set_pins(pulled);
 }
 
 template <class Real>
@@ -291,10 +294,13 @@ bool Cloth<Real>::unpin(const Vec2& at) {
     const Vec2 nearest(std::clamp(at.x(), pin.u_min, pin.u_max), std::clamp(at.y(), pin.v_min, pin.v_max));
     return (nearest - at).cwiseProduct(description_.size).norm();
   };
-  pins.erase(std::min_element(pins.begin(), pins.end(), [&](const PinRegion& a, const PinRegion& b) {
-    return distance(a) < distance(b);
-  }));
-  set_pins();
+  std::vector<Vec3> pulled = pulls();
+  const auto nearest =
+      std::min_element(pins.begin(), pins.end(),
+                       [&](const PinRegion& a, const PinRegion& b) { return distance(a) < distance(b); });
+  pulled.erase(pulled.begin() + (nearest - pins.begin()));
+  pins.erase(nearest);
+  set_pins(pulled);
   return true;
 }
 
@@ -305,9 +311,46 @@ void Cloth<Real>::moved_from_outside() {
 }
 
 template <class Real>
-void Cloth<Real>::set_pins() {
+void Cloth<Real>::change_pins(double time) {
+  if (time < next_pins_) return;
+  const std::vector<Vec3> pulled = pulls();
+  time_ = time;
+  set_pins(pulled);
+}
+
+template <class Real>
+std::vector<Vec3> Cloth<Real>::pulls() const {
+  std::vector<Vec3> all(description_.pins.size(), Vec3(0, 0, 0));
+  if (soft_pins_ == nullptr) return all;
+  std::transform(description_.pins.begin(), description_.pins.end(), all.begin(),
+                 [&](const PinRegion& pin) { return soft_pins_->pull(pin, particles_, time_); });
+  return all;
+}
+
+template <class Real>
+void Cloth<Real>::hold(const std::vector<Vec3>& pulls) {
+  const std::vector<PinRegion>& pins = description_.pins;
+  pins_ = Pins<Real>(acting(pins, time_, false), time_, particles_, seam());
+  next_pins_ = next_change(pins, time_);
+  std::erase_if(effects_, [&](const auto& effect) { return effect.get() == soft_pins_; });
+  soft_pins_ = nullptr;
+  std::vector<PinRegion> soft;
+  std::vector<Vec3> pulled;
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    if (acting({pins[i]}, time_, true).empty()) continue;
+    soft.push_back(pins[i]);
+    pulled.push_back(pulls[i]);
+  }
+  if (soft.empty()) return;
+  auto made = std::make_unique<SoftPins<Real>>(soft, pulled, time_, particles_);
+  soft_pins_ = made.get();
+  effects_.insert(effects_.begin() + static_cast<std::ptrdiff_t>(composed_), std::move(made));
+}
+
+template <class Real>
+void Cloth<Real>::set_pins(const std::vector<Vec3>& pulls) {
   guard_.repair(particles_);
-  pins_ = Pins<Real>(description_.pins, time_, particles_, seam());
+  hold(pulls);
   make_springs();  // a plate is clamped where it is held
   integrator_->restart();
   hand_to_guard();

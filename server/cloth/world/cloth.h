@@ -7,6 +7,7 @@
 #include "cloth/bodies/pinned_node.h"
 #include "cloth/core/interrupt.h"
 #include "cloth/forces/grab.h"
+#include "cloth/forces/soft_pins.h"
 #include "cloth/guard/step_guard.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/levels/settle.h"
@@ -89,6 +90,9 @@ class Cloth {
     return composed_ != other.composed_ || gravity_ != other.gravity_ || bends_plate_ != other.bends_plate_ ||
            limits_strain_ != other.limits_strain_ || damping_time_ != other.damping_time_;
   }
+  /// Takes hold and lets go of what pins begin and end to hold at `time`, s, when a step begins; the cloth
+  /// wakes.
+  void change_pins(double time);
   void disturb() { disturbed_ = true; }
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
   void set_layers(LayerContacts<Real>* layers) {
@@ -187,7 +191,11 @@ class Cloth {
   /// Breaks what the step has loaded beyond its strength.
   void tear();
   Contact<Real>& contact();
-  void set_pins();
+  /// How far each of the description's pins draws its nodes, m (SoftPins::pull).
+  std::vector<Vec3> pulls() const;
+  /// Makes the pins that hold at time_, of which soft ones draw their nodes so far.
+  void hold(const std::vector<Vec3>& pulls);
+  void set_pins(const std::vector<Vec3>& pulls);
   /// Of the cloth as it is, beside moving pins and layers.
   Forces<Real> forces(const EffectContext& context);
   /// advance(), until a state is good.
@@ -204,6 +212,8 @@ class Cloth {
   void serialize_integrator(Archive& archive);
   template <class Archive>
   void serialize_contact(Archive& archive);
+  template <class Archive>
+  void serialize_soft_pins(Archive& archive);
   template <class Archive>
   void serialize_grabs(Archive& archive);
   /// Nothing remembers a step that was taken back.
@@ -236,10 +246,12 @@ class Cloth {
   std::optional<Plate<Real>> plate_;
   std::optional<Seam<Real>> seam_;  ///< at this level, if the cloth is sewn
   std::unique_ptr<Gas<Real>> gas_;
-  std::vector<std::unique_ptr<Effect<Real>>> effects_;  ///< the description's, then what was added
-  std::size_t composed_ = 0;                            ///< of effects_, the description's
-  Grabs<Real>* grabs_ = nullptr;                        ///< one of effects_ as long as something is held
-  std::unique_ptr<Integrator<Real>> integrator_;        ///< as guard_ will have it
+  std::vector<std::unique_ptr<Effect<Real>>> effects_;          ///< the description's, then what was added
+  std::size_t composed_ = 0;                                    ///< of effects_, the description's
+  SoftPins<Real>* soft_pins_ = nullptr;                         ///< one of effects_ as long as some hold
+  double next_pins_ = std::numeric_limits<double>::infinity();  ///< when pins begin or end to hold next, s
+  Grabs<Real>* grabs_ = nullptr;                  ///< one of effects_ as long as something is held
+  std::unique_ptr<Integrator<Real>> integrator_;  ///< as guard_ will have it
   StepGuard<Real> guard_;
   Sleep sleep_;
   double most_work_ = WorkLimit::kNone, work_ = 0;

@@ -54,6 +54,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   }
   solids_ = met_ = seen(solids);  // nothing is given yet, and nothing while it stands still
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
+  if (soft_pins_ != nullptr && soft_pins_->begin_step(solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();
   if (gas_ && gas_->fills(time)) wake();
   work_ = 0;
@@ -64,6 +65,7 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   AdvanceReport report;
   try {
     report = advance_soundly(solids, air, time, dt);
+    if (soft_pins_ != nullptr && !frozen()) soft_pins_->push(particles_, solids_, time + dt, dt);
   } catch (const TooMuchWork&) {
     guard_.give_up(particles_);
     forget_attempt();

@@ -99,7 +99,8 @@ void serialize(Archive& archive, PoseWaypoint& point) {
 }
 template <class Archive>
 void serialize(Archive& archive, PinRegion& pin) {
-  archive(pin.u_min, pin.u_max, pin.v_min, pin.v_max, pin.path, pin.loop, pin.obstacle);
+  archive(pin.u_min, pin.u_max, pin.v_min, pin.v_max, pin.path, pin.loop, pin.obstacle, pin.ball, pin.motion,
+          pin.from, pin.until, pin.stiffness);
 }
 template <class Archive>
 void serialize(Archive& archive, BallDescription& ball) {

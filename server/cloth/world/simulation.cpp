@@ -170,6 +170,7 @@ void Simulation<Real>::step() {
 template <class Real>
 void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   check_interrupt(0);
+  for (Cloth<Real>& cloth : cloths_) cloth.change_pins(time);
   colliders_.begin_step(time, dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>(),
                         parts_left);
   std::vector<PinnedNode> pins;

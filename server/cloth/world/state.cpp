@@ -86,6 +86,7 @@ void Cloth<Real>::serialize(Archive& archive) {
     if (!filled || !filling_) gas_ = nullptr;
     fill();
   }
+  serialize_soft_pins(archive);
   serialize_grabs(archive);  // which wakes it
   archive(disturbed_, sleep_, most_work_, work_);
 }
@@ -152,6 +153,22 @@ void Cloth<Real>::serialize_contact(Archive& archive) {
   archive(touches);
   if (Archive::is_loading::value && !touches) contact_.reset();
   if (touches) archive(contact());
+}
+
+template <class Real>
+template <class Archive>
+void Cloth<Real>::serialize_soft_pins(Archive& archive) {
+  bool soft = soft_pins_ != nullptr;
+  archive(next_pins_, soft);
+  if (Archive::is_loading::value) {
+    std::erase_if(effects_, [&](const auto& effect) { return effect.get() == soft_pins_; });
+    soft_pins_ = nullptr;
+    if (!soft) return;
+    auto made = std::make_unique<SoftPins<Real>>();
+    soft_pins_ = made.get();
+    effects_.insert(effects_.begin() + static_cast<std::ptrdiff_t>(composed_), std::move(made));
+  }
+  if (soft) archive(*soft_pins_);
 }
 
 template <class Real>

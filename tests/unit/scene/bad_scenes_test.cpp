@@ -73,7 +73,8 @@ TEST(BadScenes, OnlyASceneThatIsAFileNamesFiles) {
 TEST(BadScenes, MissingFilesNameThePresets) {
   EXPECT_EQ(problems_of(load("no-such-scene")),
             "no-such-scene: No such file or directory (neither a file nor a preset; the presets are flag, "
-            "flag-gusts, curtain, fan, tablecloth, silk, round-table, cape, sail, trampoline, washing-line, "
+            "flag-gusts, curtain, fan, tablecloth, silk, round-table, cape, walker, sail, trampoline, "
+            "washing-line, "
             "towel, hide, cushion, pillow, paper-screen, swing, zheng2020-wind, zheng2020-distance, "
             "zheng2020-ball)\n");
 }

@@ -1,0 +1,143 @@
+#include "cloth/forces/soft_pins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloth/kernels/node_vector.h"
+
+namespace weft {
+namespace {
+
+bool is_same(const PinRegion& a, const PinRegion& b) {
+  return a.u_min == b.u_min && a.u_max == b.u_max && a.v_min == b.v_min && a.v_max == b.v_max &&
+         a.from == b.from && a.until == b.until && a.stiffness == b.stiffness;
+}
+
+}  // namespace
+
+template <class Real>
+SoftPins<Real>::SoftPins(const std::vector<PinRegion>& regions, const std::vector<Vec3>& pulls, double time,
+                         const Particles<Real>& particles)
+    : places_(particles) {
+  const Real* mass = particles.mass.row(0);
+  const auto places = kernels::components(places_.position);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    Held& held = held_.emplace_back(Held{regions[r], {}});
+    double sum = 0;
+    const std::vector<std::size_t> nodes = nodes_of(regions[r], particles.grid());
+    for (const std::size_t node : nodes) sum += double(mass[node]);
+    for (const std::size_t node : nodes) {
+      held.springs.push_back({node, regions[r].stiffness.value_or(0) * double(mass[node]) / sum});
+      set(places, node, Vec3(at<Real>(places, node) + pulls[r]));
+    }
+  }
+  places_of_ = Pins<Real>(regions, time, places_);
+}
+
+template <class Real>
+template <class Visit>
+void SoftPins<Real>::for_each_spring(const Held& held, const Particles<Real>& particles, Visit visit) const {
+  const auto places = kernels::components(std::as_const(places_.position));
+  const auto nodes = kernels::components(particles.position);
+  const Vec3 apart = places_.place - particles.place;
+  for (const Spring& spring : held.springs)
+    visit(spring, Vec3(apart + at<Real>(places, spring.node) - at<Real>(nodes, spring.node)));
+}
+
+template <class Real>
+Vec3 SoftPins<Real>::pull(const PinRegion& region, const Particles<Real>& particles, double time) const {
+  move_places(time);
+  Vec3 force(0, 0, 0);
+  double stiffness = 0;
+  for (const Held& held : held_) {
+    if (!is_same(held.region, region)) continue;
+    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+      force += spring.stiffness * way;
+      stiffness += spring.stiffness;
+    });
+  }
+  return stiffness > 0 ? Vec3(force / stiffness) : force;
+}
+
+template <class Real>
+void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& solids, double time,
+                          double dt) const {
+  const auto places = kernels::components(std::as_const(places_.position));
+  for (const Held& held : held_) {
+    if (!held.region.obstacle && !held.region.ball) continue;
+    const ColliderId id = collider_of(held.region);
+    const auto solid =
+        std::find_if(solids.begin(), solids.end(), [&](const Solid& each) { return each.id == id; });
+    if (solid == solids.end() || !solid->yields()) continue;
+    move_places(time);
+    Vec3 impulse(0, 0, 0), turning(0, 0, 0);
+    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+      const Vec3 arm = places_.place - particles.place + at<Real>(places, spring.node) - solid->position;
+      const Vec3 pull = -dt * spring.stiffness * way;
+      impulse += pull;
+      turning += arm.cross(pull);
+    });
+    solid->go_on(solid->velocity + solid->inverse_mass * impulse,
+                 solid->spin + solid->inverse_inertia * turning, 1, dt);
+  }
+}
+
+template <class Real>
+void SoftPins<Real>::add_forces(const Particles<Real>& particles, const EffectContext& context,
+                                VectorField<Real>& force) const {
+  move_places(context.time);
+  const auto total = kernels::components(force);
+  for (const Held& held : held_) {
+    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+      total.x[spring.node] += static_cast<Real>(spring.stiffness * way.x());
+      total.y[spring.node] += static_cast<Real>(spring.stiffness * way.y());
+      total.z[spring.node] += static_cast<Real>(spring.stiffness * way.z());
+    });
+  }
+}
+
+template <class Real>
+double SoftPins<Real>::tension(const Particles<Real>& particles, const EffectContext& context) const {
+  move_places(context.time);
+  const Vec2& size = context.cloth->size;
+  const Grid& grid = particles.grid();
+  double sum = 0;
+  for (const Held& held : held_) {
+    const PinRegion& region = held.region;
+    const double width = std::max((region.u_max - region.u_min + 1.0 / (grid.cols - 1)) * size.x(),
+                                  (region.v_max - region.v_min + 1.0 / (grid.rows - 1)) * size.y());
+    Vec3 force(0, 0, 0);
+    for_each_spring(held, particles,
+                    [&](const Spring& spring, const Vec3& way) { force += spring.stiffness * way; });
+    sum += force.norm() / width;
+  }
+  return sum;
+}
+
+template <class Real>
+double SoftPins<Real>::max_damping_rate(const Particles<Real>& particles, const EffectContext&) const {
+  const Real* inverse_mass = particles.inverse_mass.row(0);
+  double sum = 0;  // regions may share their nodes
+  for (const Held& held : held_) {
+    double most = 0;
+    for (const Spring& spring : held.springs)
+      most = std::max(most, spring.stiffness * double(inverse_mass[spring.node]));
+    sum += most;
+  }
+  return std::sqrt(sum);
+}
+
+template <class Real>
+void SoftPins<Real>::add_damping(const Particles<Real>&, const EffectContext& context,
+                                 const DampingMatrix<Real>& damping) const {
+  for (const Held& held : held_) {
+    for (const Spring& spring : held.springs)
+      damping.scalar[spring.node] += static_cast<Real>(context.step * spring.stiffness);
+  }
+}
+
+template class SoftPins<float>;
+template class SoftPins<double>;
+
+}  // namespace weft

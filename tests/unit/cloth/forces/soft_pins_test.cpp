@@ -1,0 +1,226 @@
+// Pins with a stiffness: what hangs on them, how it swings, at every level, by every method; and pins in
+// time.
+#include "cloth/forces/soft_pins.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cloth/world/simulation.h"
+#include "cloth/world/state.h"
+#include "fixtures.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+
+/// A sheet of 1 m x 1 m and 0.1 kg.
+SimulationDescription softly_pinned(const IntegratorDescription& integrator, const PinRegion& pin) {
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.size = {1, 1};
+  cloth.min_level = 3;
+  cloth.max_level = 5;
+  cloth.initial_level = 4;
+  cloth.pins = {pin};
+  scene.cloths = {cloth};
+  scene.integrator = integrator;
+  scene.sleep_speed = 0;
+  return scene;
+}
+
+/// Of all nodes, by mass, m.
+template <class Real>
+Vec3 mass_centre(const Particles<Real>& particles) {
+  Vec3 sum(0, 0, 0);
+  double mass = 0;
+  each_node(particles.grid(), [&](int r, int c) {
+    sum += double(particles.mass.at(r, c)) * particles.position_at(r, c);
+    mass += double(particles.mass.at(r, c));
+  });
+  return sum / mass;
+}
+
+/// Of the nodes of the top edge, by mass, m.
+template <class Real>
+Vec3 top_centre(const Particles<Real>& particles) {
+  Vec3 sum(0, 0, 0);
+  double mass = 0;
+  for (int c = 0; c < particles.grid().cols; ++c) {
+    sum += double(particles.mass.at(0, c)) * particles.position_at(0, c);
+    mass += double(particles.mass.at(0, c));
+  }
+  return sum / mass;
+}
+
+class SoftPinsOf : public ::testing::TestWithParam<IntegratorDescription> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, SoftPinsOf,
+                         ::testing::Values(SymplecticEulerDescription{}, BackwardEulerDescription{},
+                                           Bdf2Description{}, XpbdDescription{}),
+                         [](const auto& test) {
+                           return std::visit([](const auto& d) { return std::string(d.kName); }, test.param);
+                         });
+
+// 0.1 kg hang on 20 N/m: 0.1 * 9.81 / 20 = 49.05 mm below where the edge began. A change of level keeps it.
+TEST_P(SoftPinsOf, HoldAWeightAtForceOverStiffness) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1, .stiffness = 20});
+  scene.cloths[0].material.damping = 1;
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  Simulation<double> simulation(scene);
+  const auto sag = [&] { return 0.5 - top_centre(simulation.cloths()[0].particles()).y(); };
+  for (int step = 0; step < 300; ++step) simulation.step();
+  EXPECT_NEAR(sag(), 0.04905, 1e-4);
+  for (const int level : {5, 3, 4}) {
+    simulation.request_level(0, level);
+    for (int step = 0; step < 120; ++step) simulation.step();
+    EXPECT_NEAR(sag(), 0.04905, 2e-4) << level;
+  }
+}
+
+// All nodes are drawn, in proportion to their masses, and begin with the same velocity: the sheet swings as
+// one body, with the period 2 pi sqrt(0.1 kg / 4 N/m) = 0.99346 s, and is back at its place after half of it.
+TEST_P(SoftPinsOf, SwingWithTheirPeriod) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1, .v_max = 1, .stiffness = 4});
+  scene.cloths[0].velocity = {0, 0, 0.5};
+  scene.time_step = 1e-3;
+  Simulation<double> simulation(scene);
+  double crossing = 0, before = 0;
+  for (int step = 1; step <= 700 && crossing == 0; ++step) {
+    simulation.step();
+    const double z = mass_centre(simulation.cloths()[0].particles()).z();
+    if (before > 0 && z <= 0) crossing = 1e-3 * (step - 1 + before / (before - z));
+    before = z;
+  }
+  EXPECT_NEAR(crossing, std::numbers::pi * std::sqrt(0.1 / 4), 2e-3);
+}
+
+// The place moves by 0.3 m in the first half second; the sheet comes to rest there.
+TEST_P(SoftPinsOf, FollowTheirPath) {
+  SimulationDescription scene = softly_pinned(
+      GetParam(), {.u_max = 1, .v_max = 1, .path = {{0, {0, 0, 0}}, {0.5, {0.3, 0, 0}}}, .stiffness = 10});
+  scene.cloths[0].material.damping = 2;
+  scene.effects = {DampingEffect{}};
+  Simulation<double> simulation(scene);
+  for (int step = 0; step < 240; ++step) simulation.step();
+  EXPECT_LT((mass_centre(simulation.cloths()[0].particles()) - Vec3(0.3, 0, 0)).norm(), 1e-3);
+}
+
+// Held by the upper left corner from 0.5 s on, and let go of at 1 s: it falls from the start, is where it was
+// at 0.5 s until 1 s, and falls again.
+TEST_P(SoftPinsOf, PinsHoldFromOneTimeUntilAnother) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1, .from = 0.5, .until = 1});
+  scene.effects = {GravityEffect{}};
+  Simulation<double> simulation(scene);
+  const auto corner = [&] { return simulation.cloths()[0].particles().position_at(0, 0); };
+  for (int step = 0; step < 30; ++step) simulation.step();
+  const Vec3 held = corner();
+  EXPECT_NEAR(held.y(), 0.5 - 9.81 * 0.25 / 2, 0.05);  // g t^2 / 2, and what steps of 1/60 s add
+  for (int step = 0; step < 30; ++step) {
+    simulation.step();
+    EXPECT_EQ(corner(), held) << step;
+  }
+  for (int step = 0; step < 30; ++step) simulation.step();
+  EXPECT_LT(corner().y(), held.y() - 0.5);
+}
+
+// A state that is saved while soft pins hold, and before one begins to, goes on to the bit.
+TEST_P(SoftPinsOf, GoOnFromASavedState) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1, .stiffness = 20});
+  scene.cloths[0].pins.push_back({.u_max = 1, .v_min = 1, .v_max = 1, .from = 0.4, .until = 0.6});
+  scene.effects = {GravityEffect{}};
+  Simulation<float> simulation(scene), other(scene);
+  for (int step = 0; step < 20; ++step) simulation.step();
+  load_state(other, save_state(simulation));
+  for (int step = 0; step < 30; ++step) {
+    simulation.step();
+    other.step();
+  }
+  EXPECT_EQ(save_state(simulation), save_state(other));
+}
+
+// 0.2 kg hang on 20 N/m from the lower edge of a sheet that is held by the upper one: on the mean of many
+// swings the pin is stretched by 0.2 * 9.81 / 20 = 98.1 mm, but for 0.2 kg * 1 m/s over the time, 0.01 N or
+// 0.5 mm, at either end.
+TEST_P(SoftPinsOf, HoldABall) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1});
+  scene.cloths[0].pins.push_back(
+      {.u_min = 0.5, .u_max = 0.5, .v_min = 1, .v_max = 1, .ball = 0, .stiffness = 20});
+  scene.cloths[0].initial_level = 3;
+  BallDescription ball;
+  ball.position = {0, -0.6, 0};
+  ball.radius = 0.05;
+  ball.motion = BallDescription::Motion::dynamic;
+  ball.mass = 0.2;
+  scene.balls = {ball};
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  Simulation<double> simulation(scene);
+  double sum = 0;
+  constexpr int kSteps = 1200;
+  for (int step = 0; step < kSteps; ++step) {
+    simulation.step();
+    const double node = simulation.cloths()[0].particles().position_at(8, 4).y();
+    sum += node - (simulation.colliders().balls()[0].position.y() + 0.1);
+  }
+  EXPECT_NEAR(sum / kSteps, 0.0981, 1e-3);
+}
+
+// In free space a body of 0.5 kg is drawn to a sheet of 0.1 kg by a point beside its centre: their momentum,
+// 0.5 kg at 1 m/s, and their angular momentum about the origin, (0.1, 0, 0.3) x (0, 0, 0.5), stay, but for
+// the force of a step at either end, which the two get a step apart. A cube of 0.2 m has the inertia 0.5
+// (0.2^2 + 0.2^2) / 12.
+TEST_P(SoftPinsOf, KeepTheMomentumOfBodyAndCloth) {
+  SimulationDescription scene = softly_pinned(
+      GetParam(), {.u_min = 0.5, .u_max = 0.5, .v_min = 0.5, .v_max = 0.5, .obstacle = 0, .stiffness = 5});
+  ObstacleDescription box;
+  box.shape = BoxDescription{{0.2, 0.2, 0.2}};
+  box.position = {0.1, 0, 0.3};
+  box.body = BodyDescription{.mass = 0.5, .velocity = {0, 0, 1}};
+  scene.obstacles = {box};
+  Simulation<double> simulation(scene);
+  double most = 0;  // N
+  for (int step = 0; step < 300; ++step) {
+    const Vec3 before = simulation.colliders().obstacles()[0].body->velocity();
+    simulation.step();
+    const Obstacle& body = simulation.colliders().obstacles()[0];
+    const Vec3 velocity = body.body->velocity(), place = body.pose.position;
+    most = std::max(most, 0.5 * 60 * (velocity - before).norm());
+    const Particles<double>& particles = simulation.cloths()[0].particles();
+    Vec3 momentum = 0.5 * velocity;
+    Vec3 angular = place.cross(momentum) + 0.5 * 0.08 / 12 * body.body->spin(body.pose.orientation);
+    each_node(particles.grid(), [&](int r, int c) {
+      const Vec3 of_node = particles.mass.at(r, c) * particles.velocity_at(r, c);
+      momentum += of_node;
+      angular += particles.position_at(r, c).cross(of_node);
+    });
+    const double impulse = 2 * most / 60 + 1e-9;
+    EXPECT_LT((momentum - Vec3(0, 0, 0.5)).norm(), impulse) << step;
+    EXPECT_LT((angular - Vec3(0, -0.05, 0)).norm(), impulse * (place.norm() + 1)) << step;
+  }
+  EXPECT_GT(most, 0.1);
+}
+
+// The force on each node is its share by mass, k m_i / m of the way, whatever the level.
+TEST(SoftPins, ShareTheirStiffnessByMass) {
+  for (const int level : {3, 4, 5}) {
+    SimulationDescription scene = softly_pinned(Bdf2Description{}, {});
+    scene.cloths[0].initial_level = level;
+    const Simulation<double> simulation(scene);
+    const Particles<double>& particles = simulation.cloths()[0].particles();
+    const PinRegion region{.u_max = 1, .stiffness = 30};
+    const SoftPins<double> pins({region}, {Vec3(0, 0.1, 0)}, 0, particles);
+    EXPECT_LT((pins.pull(region, particles, 0) - Vec3(0, 0.1, 0)).norm(), 1e-12);
+    VectorField<double> force(particles.grid());
+    const EffectContext context{&simulation.cloths()[0].description(), nullptr, 0};
+    pins.add_forces(particles, context, force);
+    Vec3 sum(0, 0, 0);
+    each_node(particles.grid(), [&](int r, int c) { sum += test::get(force, r, c); });
+    EXPECT_LT((sum - Vec3(0, 3, 0)).norm(), 1e-12);
+    // A corner has half the mass of its neighbour.
+    EXPECT_NEAR(2 * test::get(force, 0, 0).y(), test::get(force, 0, 1).y(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace weft
