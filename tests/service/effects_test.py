@@ -100,7 +100,7 @@ class Effects(unittest.IsolatedAsyncioTestCase):
         scene, _ = await self.begin()
         watcher, told = await self.connect()
         cloth = scene.scene["cloths"][0]
-        self.assertEqual(cloth["material"], {"structural": 100, "shear": 10, "bending": 0.01})  # the scene damps nothing
+        self.assertEqual(cloth["material"], {"structural": 100, "structural_weft": 100, "shear": 10, "bending": 0.01})  # the scene damps nothing
         self.assertEqual(scene.scene["material_tunable"]["bending"], {"range": [0, 1e9], "unit": "N/m"})
         ball = await scene.add_ball([0, -3, 0], radius=0.3, friction=0.25)
         await scene.tune_cloth(0, structural=700, bending=0)
