@@ -35,7 +35,7 @@ sanitized() {
     ctest --preset "$preset" --parallel "$(($(nproc) + 1))" "$@"
 }
 
-asan_targets='weft cloth_test scene_test library_test study_test host_test protocol_tests output_test
+asan_targets='weft cloth_test scene_test fabric_test library_test study_test host_test protocol_tests output_test
 weft_test_modules stability_test random_scenes_test stability_table'
 tsan_targets='weft cloth_threads_test host_threads_test'
 

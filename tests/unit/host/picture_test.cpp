@@ -15,7 +15,7 @@ namespace {
 constexpr double kHalfAngle = 0.7;  // 1920 x 1080 pixels, 45 degrees high: atan(tan(45 / 2) * 2203 / 1080)
 
 /// At the cloth's middle, from so far in front of it.
-ViewCone from(double distance, double half_angle = kHalfAngle) {
+ViewCone eye_at(double distance, double half_angle = kHalfAngle) {
   return {{0.3, 0.2, distance}, Vec3(-0.3, -0.2, -distance).normalized(), half_angle};
 }
 
@@ -62,7 +62,7 @@ TEST(Picture, NoNodeMovesByMoreThanItsShareOfAPixel) {
   for (const double half_angle : {0.05, 0.3, kHalfAngle, 3.0}) {
     for (const double distance : {0.3, 0.8, 2.6, 5.0, 12.0, 100.0}) {
       for (const int level : {4, 5, 6}) {
-        const ViewCone view = from(distance, half_angle);
+        const ViewCone view = eye_at(distance, half_angle);
         const protocol::ClothRecord shown = decoded(*encoder.message({level}, view)).cloths.at(0);
         // A cell of level L is 2 m / 2^L.
         EXPECT_LE(double(shown.quantisation.quantum), 2 * std::ldexp(1.0, -level) / kCellQuanta);
@@ -87,7 +87,7 @@ TEST(Picture, ADistantViewerIsSentLess) {
                      double(bytes_of(*message).size()));
   };
   const auto [exact, most] = sent(std::nullopt);
-  const auto [quantum, bytes] = sent(from(2.6));
+  const auto [quantum, bytes] = sent(eye_at(2.6));
   EXPECT_EQ(exact, 1.0 / 16384);   // the least power of two of which 65535 cover 2 m and more
   EXPECT_EQ(quantum, 1.0 / 2048);  // a quarter of a pixel is 0.45 mm there, and 2 / sqrt(3) of it 0.52 mm
   EXPECT_LT(bytes, most);
@@ -98,7 +98,7 @@ TEST(Picture, IsEncodedOnceALatticeHoweverManyLook) {
   encoder.capture(blown(), {30, 1, 0.5, 0, 0});
   std::set<float> quanta;
   for (int i = 0; i < 1000; ++i) {
-    const auto message = encoder.message({6}, from(0.2 + 0.05 * i));
+    const auto message = encoder.message({6}, eye_at(0.2 + 0.05 * i));
     quanta.insert(decoded(*message).cloths.at(0).quantisation.quantum);
   }
   EXPECT_GE(quanta.size(), 3U);

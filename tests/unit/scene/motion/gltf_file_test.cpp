@@ -95,7 +95,7 @@ TEST(GltfFile, TakesMatricesApart) {
 // Normalised 8-bit integers: 255 is 1.
 TEST(GltfFile, ReadsNormalisedIntegers) {
   GltfText text = arm();
-  const int turn = text.bytes("VEC4", {0, 0, 0, 255, 0, 0, 255, 0});
+  const auto turn = static_cast<std::size_t>(text.bytes("VEC4", {0, 0, 0, 255, 0, 0, 255, 0}));
   text.tree["accessors"][turn]["normalized"] = true;
   text.tree["animations"][0]["samplers"][0]["output"] = turn;
   EXPECT_LT((place(read_gltf(text.document()), 2, 2) - Vec3(-3, 1, 0)).norm(), 1e-9);  // half a turn
