@@ -110,7 +110,7 @@ class Effects(unittest.IsolatedAsyncioTestCase):
         events = {kind: await self.event(told, kind) for kind in ("ball.add", "cloth.tune", "friction")}
         # Told as it is when it is told: the change that came after it may be in it.
         self.assertIn([each["friction"] for each in events["ball.add"]["balls"]], ([0.25], [0.9]))
-        self.assertEqual(events["cloth.tune"]["material"], {"structural": 700, "shear": 10, "bending": 0})
+        self.assertEqual(events["cloth.tune"]["material"], {"structural": 700, "structural_weft": 700, "shear": 10, "bending": 0})
         self.assertEqual([each["friction"] for each in events["friction"]["balls"]], [0.9])
         self.assertEqual(events["friction"]["frictions"], [])
         for wrong in [scene.tune_cloth(0, damping=1), scene.tune_cloth(1, shear=1), scene.set_friction(11),

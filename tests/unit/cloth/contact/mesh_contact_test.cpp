@@ -192,8 +192,9 @@ TEST(DrapedMeshSlow, OverASphereAsOverTheBallWithinAFacetsHeight) {
 TEST(DrapedMeshSlow, SameBitsTwiceAndWhereverElseItIsUsed) {
   const ObstacleDescription torus = mesh_obstacle(test::torus_mesh(0.3, 0.1, 24, 60));
   Simulation<float> a(dropped(torus, 0.15, 5)), b(dropped(torus, 0.15, 5));
-  for (int step = 0; step < 120; ++step) a.step();
-  for (int step = 0; step < 120; ++step) b.step();
+  // It slides off within 80.
+  for (int step = 0; step < 50; ++step) a.step();
+  for (int step = 0; step < 50; ++step) b.step();
   EXPECT_EQ(state_hash(a), state_hash(b));
   EXPECT_GT(a.last_advance(0).nodes_in_contact, 50);
 }
