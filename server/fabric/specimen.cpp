@@ -57,7 +57,7 @@ Specimen::Specimen(const SpecimenPlan& plan)
   there_.assign(static_cast<std::size_t>(grid().nodes()), 1);
   for_each_node(grid(), [&](int r, int c) {
     const bool is_there = !plan.there || plan.there(r, c);
-    there_[static_cast<std::size_t>(r * grid().cols + c)] = is_there ? 1 : 0;
+    there_[place_of(r, c)] = is_there ? 1 : 0;
     const bool held = !is_there || (plan.held && plan.held(r, c));
     particles_.inverse_mass.at(r, c) = held ? 0 : 1 / particles_.mass.at(r, c);
     put(r, c, Vec3(c * hx, 0, r * hz));
@@ -75,9 +75,7 @@ void Specimen::put(int r, int c, const Vec3& position) {
   particles_.position.z.at(r, c) = position.z();
 }
 
-bool Specimen::there(int r, int c) const {
-  return there_[static_cast<std::size_t>(r * grid().cols + c)] != 0;
-}
+bool Specimen::there(int r, int c) const { return there_[place_of(r, c)] != 0; }
 
 bool Specimen::face_there(int r, int c) const {
   return there(r, c) && there(r, c + 1) && there(r + 1, c) && there(r + 1, c + 1);

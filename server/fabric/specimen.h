@@ -56,6 +56,10 @@ class Specimen {
 
  private:
   Forces<double> forces(double time) const;
+  /// Of the node in there_.
+  std::size_t place_of(int r, int c) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid().cols) + static_cast<std::size_t>(c);
+  }
 
   ClothDescription cloth_;
   Wind calm_;

@@ -192,8 +192,8 @@ GltfDocument::Numbers GltfDocument::numbers(std::size_t accessor, std::string_vi
     object.require("componentType", "an integer");
     object.integer("componentType", code, {0, 1e6});
     object.require("count", "an integer");
-    object.integer("count", elements,
-                   {1, static_cast<double>(kMaxGltfNumbers / numbers.components), "elements"});
+    const std::size_t most = kMaxGltfNumbers / numbers.components;
+    object.integer("count", elements, {1, static_cast<double>(most), "elements"});
     object.boolean("normalized", normalized);
   });
   const ComponentType& component = component_type(code);
