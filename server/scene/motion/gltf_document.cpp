@@ -112,16 +112,13 @@ GltfDocument::GltfDocument(std::string_view bytes, const ReadBuffer& read_buffer
         buffer.integer("byteLength", length, {1, static_cast<double>(left)});
       if (buffer.has("uri")) buffer.string("uri", uri, kMaxTextBytes);
     });
-    std::string& data = buffers_.emplace_back();
-    if (uri.empty()) {
-      data = chunks.binary;
-    } else {
-      data = is_data_uri(uri) ? data_of_uri(uri) : read_buffer(uri);
-    }
+    std::string held;
+    if (!uri.empty()) held = is_data_uri(uri) ? data_of_uri(uri) : read_buffer(uri);
+    const std::string_view data = uri.empty() ? std::string_view(chunks.binary) : held;
     if (data.size() < length)
       refuse_gltf("has at " + element_path("/buffers", i) + " a buffer of " + std::to_string(length) +
                   " bytes, of which " + std::to_string(data.size()) + " are there");
-    data.resize(length);
+    buffers_.emplace_back(data.substr(0, length));  // no more is kept of what many may share
     left -= length;
   }
 }

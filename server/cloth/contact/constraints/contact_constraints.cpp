@@ -125,7 +125,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   if (held) {
     made.gained_before = same->gained;
     // Friction in proportion to the slip would grow with what it gains on the last one.
-    if (!made.has_stuck && !solid.yields()) made.sliding += std::max(0.0, std::min(same->gained, same->gained_before));
+    if (!made.has_stuck && !solid.yields())
+      made.sliding += std::max(0.0, std::min(same->gained, same->gained_before));
   }
   if (held && near_rest_) made.grip = across(same->grip, normal);
   if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
