@@ -36,7 +36,16 @@ install_missing() {
     as_root=(sudo)
   fi
   "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+  # A package's service (haproxy, nginx) is not started by being installed: policy-rc.d(8) forbids it meanwhile.
+  local policy=/usr/sbin/policy-rc.d forbids='' status=0
+  if [ ! -e "$policy" ]; then
+    forbids=$policy
+    printf '#!/bin/sh\nexit 101\n' | "${as_root[@]}" tee "$policy" > /dev/null
+    "${as_root[@]}" chmod 755 "$policy"
+  fi
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null || status=$?
+  [ -z "$forbids" ] || "${as_root[@]}" rm -f "$forbids"
+  return $status
 }
 
 # configure PRESET [OPTION...]: CMake's output only when it fails.

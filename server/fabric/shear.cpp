@@ -1,6 +1,7 @@
 #include "fabric/shear.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "fabric/jaws.h"
 
@@ -11,7 +12,7 @@ constexpr double kTension = 10 * 0.00980665 / 0.01;  // N/m
 
 /// Force along the jaw at so many degrees, N/m, less the tension's part.
 double force_at(Jaws& jaws, double degrees, double& apart) {
-  const double incline = std::tan(degrees / 180 * std::acos(-1.0));
+  const double incline = std::tan(degrees / 180 * std::numbers::pi);
   // The jaws' distance is what leaves the tension: a secant from a distance nearby.
   double before = apart, tension_before = 0;
   const auto aside = [&](double by) { return (Jaws::kLength + by) * incline; };
@@ -41,7 +42,7 @@ Shear shear(const Material& material, bool limited) {
   double apart = 0;
   const double first = force_at(jaws, kFrom, apart), second = force_at(jaws, kTo, apart);
   Shear result;
-  result.stiffness = (second - first) / ((kTo - kFrom) / 180 * std::acos(-1.0));
+  result.stiffness = (second - first) / ((kTo - kFrom) / 180 * std::numbers::pi);
   result.at_8_degrees = force_at(jaws, kLast, apart);
   return result;
 }

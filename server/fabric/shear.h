@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include "cloth/sheet/material.h"
 
 namespace weft::fabric {
@@ -11,7 +13,7 @@ struct Shear {
 };
 
 /// N/m per radian in one gf/cm per degree, the instrument's unit.
-inline constexpr double kGramForcePerDegree = 0.00980665 / 0.01 * 180 / 3.14159265358979323846;
+inline constexpr double kGramForcePerDegree = 0.00980665 / 0.01 * 180 / std::numbers::pi;
 
 /// The threads along u are those between the jaws. Throws NoRest.
 Shear shear(const Material& material, bool limited);

@@ -1,7 +1,6 @@
 #include "net/frame_rules.h"
 
-#include <algorithm>
-#include <array>
+#include <boost/locale/utf.hpp>
 #include <limits>
 #include <string>
 
@@ -45,31 +44,9 @@ std::optional<FrameHead> parse_frame_head(std::string_view bytes) {
 }
 
 bool is_utf8(std::string_view text) {
-  /// First bytes of characters of so many bytes, and the range of the second; all further are 80..BF.
-  struct Form {
-    unsigned char first, last, least, most;
-    std::size_t bytes;
-  };
-  static constexpr std::array<Form, 9> kForms{{{0x00, 0x7f, 0, 0, 1},
-                                               {0xc2, 0xdf, 0x80, 0xbf, 2},
-                                               {0xe0, 0xe0, 0xa0, 0xbf, 3},
-                                               {0xe1, 0xec, 0x80, 0xbf, 3},
-                                               {0xed, 0xed, 0x80, 0x9f, 3},
-                                               {0xee, 0xef, 0x80, 0xbf, 3},
-                                               {0xf0, 0xf0, 0x90, 0xbf, 4},
-                                               {0xf1, 0xf3, 0x80, 0xbf, 4},
-                                               {0xf4, 0xf4, 0x80, 0x8f, 4}}};
-  while (!text.empty()) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const auto form = std::find_if(kForms.begin(), kForms.end(), [&](const Form& each) {
-      return byte(0) >= each.first && byte(0) <= each.last;
-    });
-    if (form == kForms.end() || text.size() < form->bytes) return false;
-    if (form->bytes > 1 && (byte(1) < form->least || byte(1) > form->most)) return false;
-    for (std::size_t i = 2; i < form->bytes; ++i) {
-      if ((byte(i) & 0xc0U) != 0x80U) return false;
-    }
-    text.remove_prefix(form->bytes);
+  namespace utf = boost::locale::utf;
+  for (const char* at = text.begin(); at != text.end();) {
+    if (!utf::is_valid_codepoint(utf::utf_traits<char>::decode(at, text.end()))) return false;
   }
   return true;
 }

@@ -24,8 +24,8 @@ struct FrameHead {
   bool reason_is_text = true;               ///< what follows the code is UTF-8
 };
 
-/// The head of the frame that begins with `bytes`; nothing as long as they end before the head does, or
-/// before the end of a close that is no longer than a close may be.
+/// The head of the frame that begins with `bytes`; nothing as long as they end before the head does. A close
+/// frame of at most 125 bytes, as long as one may be, is read whole.
 std::optional<FrameHead> parse_frame_head(std::string_view bytes);
 
 /// Whether the text is UTF-8 (The Unicode Standard, table 3-7).

@@ -111,6 +111,18 @@ TEST(FrameGate, CloseCodesThatMayNotBeSentAre1002) {
   }
 }
 
+// The edges of The Unicode Standard's table 3-7.
+TEST(FrameRules, TellUtf8) {
+  for (const char* text : {"", "a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+                           "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_TRUE(is_utf8(text)) << ::testing::PrintToString(text);
+  }
+  for (const char* text : {"\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
+                           "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xe2\x82", "a\xff"}) {
+    EXPECT_FALSE(is_utf8(text)) << ::testing::PrintToString(text);
+  }
+}
+
 /// Section 8.1; the characters of table 3-7 of the Unicode Standard, at its edges.
 TEST(FrameGate, ReasonsThatAreNoTextAre1007) {
   const std::string good = "\x03\xe8";  // 1000
