@@ -67,8 +67,8 @@ void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forc
   }
   kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(start),
                                    Real(1), kernels::components(way_), grid.size());
-  work_ += work_beside_centre(particles, force_, way_);
   work_whole_ += work_beside_centre(particles, force_, way_, true);
+  if (!is_held(particles)) work_ += work_beside_centre(particles, force_, way_, false);
 }
 
 template <class Real>
@@ -77,12 +77,12 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   if (!account_) return 1;
   Account& account = *account_;
   const bool torn = forces.springs->torn() != nullptr;
-  const bool leans = touched && !is_held(particles), held = touched || is_held(particles);
-  const MotionEnergy motion = motion_energy(particles, held);
+  const bool pinned = is_held(particles), leans = touched && !pinned, firm = touched || pinned;
+  const MotionEnergy motion = motion_energy(particles, firm);
   const double springs = stored(particles, forces), now = motion.beside_centre + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
-  const double work = held ? work_whole_ : work_;
-  double lost = (held ? account.now_whole : account.now) + work - taken_ - now;
+  const double work = firm ? work_whole_ : work_;
+  double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;
   if (torn) lost = account.owed = 0;
   account.owed += lost;
   const bool wind = account.drive == Drive::wind;
@@ -101,10 +101,15 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   report.contact_took = taken_;
   report.energy_lost = lost;
   report.energy_given_back = change;
-  const double scale = add_to_motion(particles, change, held);
-  account.now_whole = motion_energy(particles, true).inner + springs;
-  account.now = is_held(particles) ? account.now_whole : motion_energy(particles).beside_centre + springs;
-  if (leans) account.most = account.now;
+  const double scale = add_to_motion(particles, change, firm);
+  (firm ? account.now_whole : account.now) = now + change;
+  if (pinned) {
+    account.now = account.now_whole;
+  } else if (leans) {
+    account.most = account.now = motion_energy(particles, false).beside_centre + springs;
+  } else {
+    account.now_whole = motion_energy(particles, true).inner + springs;
+  }
   return scale;
 }
 
