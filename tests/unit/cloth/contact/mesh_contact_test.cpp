@@ -192,11 +192,14 @@ TEST(DrapedMeshSlow, OverASphereAsOverTheBallWithinAFacetsHeight) {
 TEST(DrapedMeshSlow, SameBitsTwiceAndWhereverElseItIsUsed) {
   const ObstacleDescription torus = mesh_obstacle(test::torus_mesh(0.3, 0.1, 24, 60));
   Simulation<float> a(dropped(torus, 0.15, 5)), b(dropped(torus, 0.15, 5));
-  // It slides off within 80.
-  for (int step = 0; step < 50; ++step) a.step();
+  int most = 0;  // it slides off within 80 steps
+  for (int step = 0; step < 50; ++step) {
+    a.step();
+    most = std::max(most, a.last_advance(0).nodes_in_contact);
+  }
   for (int step = 0; step < 50; ++step) b.step();
   EXPECT_EQ(state_hash(a), state_hash(b));
-  EXPECT_GT(a.last_advance(0).nodes_in_contact, 50);
+  EXPECT_GT(most, 50) << "it lies on the torus";
 }
 
 TEST(DrapedMesh, CarriesPinsAndIsMoved) {
