@@ -46,7 +46,6 @@ std::vector<EffectDescription> effects_of(const SpecimenPlan& plan) {
 
 Specimen::Specimen(const SpecimenPlan& plan)
     : particles_(Grid::with_nodes(plan.rows, plan.cols)),
-      springs_(plan.material, Discretization::continuum, plan.size, particles_.grid(), 0, plan.limited),
       effects_(make_effects<double>(effects_of(plan))),
       integrator_(make_integrator<double>(to_rest(plan.tolerance))) {
   cloth_.size = plan.size;
@@ -62,11 +61,11 @@ Specimen::Specimen(const SpecimenPlan& plan)
     particles_.inverse_mass.at(r, c) = held ? 0 : 1 / particles_.mass.at(r, c);
     put(r, c, Vec3(c * hx, 0, r * hz));
   });
-  if (plan.there) {
-    cut_ = links_cut(grid(), plan.there);
-    springs_.tear(cut_);
-  }
-  if (plan.bends) plate_.emplace(plan.material.rigidity, plan.size, particles_.inverse_mass, cut_.get());
+  SheetEffects resisting;
+  resisting.bends_plate = plan.bends;
+  resisting.limits_strain = plan.limited;
+  sheet_ = Sheet<double>(cloth_, resisting, particles_.inverse_mass,
+                         plan.there ? links_cut(grid(), plan.there) : nullptr);
 }
 
 void Specimen::put(int r, int c, const Vec3& position) {
@@ -81,9 +80,7 @@ bool Specimen::face_there(int r, int c) const {
   return there(r, c) && there(r, c + 1) && there(r + 1, c) && there(r + 1, c + 1);
 }
 
-Forces<double> Specimen::forces(double time) const {
-  return {&springs_, &effects_, {&cloth_, &calm_, time}, nullptr, plate_ ? &*plate_ : nullptr};
-}
+Forces<double> Specimen::forces(double time) const { return {&sheet_, &effects_, {&cloth_, &calm_, time}}; }
 
 double Specimen::advance(double step) {
   const VectorField<double> before = particles_.position;
@@ -108,11 +105,13 @@ void Specimen::rest(double step, double still, int most) {
 
 VectorField<double> Specimen::pull() const {
   VectorField<double> force(grid());
-  springs_.add_forces(particles_.position, force);
+  sheet_.springs().add_forces(particles_.position, force);
   return force;
 }
 
-double Specimen::bending_energy() const { return plate_ ? plate_->energy(particles_.position) : 0; }
+double Specimen::bending_energy() const {
+  return sheet_.plate() != nullptr ? sheet_.plate()->energy(particles_.position) : 0;
+}
 
 Material turned(const Material& material) {
   Material other = material;

@@ -2,7 +2,6 @@
 /// A piece of cloth in a testing instrument.
 #include <functional>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -64,9 +63,7 @@ class Specimen {
   ClothDescription cloth_;
   Wind calm_;
   Particles<double> particles_;
-  std::shared_ptr<TornLinks> cut_;  ///< nullptr where all is there
-  Springs<double> springs_;
-  std::optional<Plate<double>> plate_;
+  Sheet<double> sheet_;
   std::vector<std::unique_ptr<Effect<double>>> effects_;
   std::unique_ptr<Integrator<double>> integrator_;
   std::vector<Solid> no_solids_;

@@ -23,12 +23,6 @@ constexpr double kKeptInWind = 0.5;
 }  // namespace
 
 template <class Real>
-double EnergyLedger<Real>::stored(const Particles<Real>& particles, const Forces<Real>& forces) {
-  const double springs = forces.springs->energy(particles.position);
-  return forces.plate == nullptr ? springs : springs + forces.plate->energy(particles.position);
-}
-
-template <class Real>
 double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces<Real>& forces) {
   return is_held(particles) ? forces.effects_energy(particles) : 0;
 }
@@ -46,12 +40,12 @@ void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forc
   work_ = work_whole_ = taken_ = 0;
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
-  const double now = motion_energy(particles).beside_centre + stored(particles, forces);
+  const double now = motion_energy(particles).beside_centre + forces.sheet->energy(particles.position);
   account_ = {.drive = forces.drive,
               .most = now + height(particles, forces),
               .most_whole = forces.energy(particles),
               .now = now,
-              .now_whole = motion_energy(particles, true).inner + stored(particles, forces)};
+              .now_whole = motion_energy(particles, true).inner + forces.sheet->energy(particles.position)};
 }
 
 template <class Real>
@@ -63,7 +57,7 @@ void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forc
   if (force_.grid() != grid) force_ = way_ = VectorField<Real>(grid);
   forces.sum_effects(particles, force_);
   if (dampers != nullptr) {
-    forces.springs->add_damping(particles.position, kernels::components(*dampers), h, force_);
+    forces.sheet->add_damping_of_way(particles.position, kernels::components(*dampers), h, force_);
   }
   kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(start),
                                    Real(1), kernels::components(way_), grid.size());
@@ -76,10 +70,10 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                     bool touched, AdvanceReport& report) {
   if (!account_) return 1;
   Account& account = *account_;
-  const bool torn = forces.springs->torn() != nullptr;
+  const bool torn = forces.sheet->torn() != nullptr;
   const bool pinned = is_held(particles), leans = touched && !pinned, firm = touched || pinned;
   const MotionEnergy motion = motion_energy(particles, firm);
-  const double springs = stored(particles, forces), now = motion.beside_centre + springs;
+  const double springs = forces.sheet->energy(particles.position), now = motion.beside_centre + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
   const double work = firm ? work_whole_ : work_;
   double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;

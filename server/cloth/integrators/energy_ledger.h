@@ -68,8 +68,6 @@ class EnergyLedger {
       archive(drive, most, most_whole, owed, now, now_whole, motion);
     }
   };
-  /// Of springs and plate, J.
-  static double stored(const Particles<Real>& particles, const Forces<Real>& forces);
   /// Of the effects, J; none beside the centre of mass, as gravity is the only one that has any.
   static double height(const Particles<Real>& particles, const Forces<Real>& forces);
   /// Of what a motion of this energy loses in a step of `dt` seconds, what is given back.

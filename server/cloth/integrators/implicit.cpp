@@ -23,8 +23,8 @@ bool needs_blocks(const Forces<Real>& forces) {
 }  // namespace
 
 template <class Real>
-Implicit<Real>::State::State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn)
-    : system(grid, has_bending, plate, sewn),
+Implicit<Real>::State::State(const Grid& grid, const Sheet<Real>& sheet, bool sewn)
+    : system(grid, sheet.springs().has_bending(), sheet.plate(), sewn),
       solver(grid),
       numbers(grid, 1),
       vectors(grid, 18),
@@ -79,9 +79,9 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       report.nodes_in_contact += contact->keep(pressed);
       report.contact_seconds += seconds(Clock::now() - moved);
     }
-    if (forces.seam != nullptr) forces.seam->join(particles);
+    forces.join(particles);
     memory_->ledger.count_work(particles, forces, state_->start,
-                               forces.springs->damping_time() > 0 ? &state_->way : nullptr, h);
+                               forces.sheet->damped() ? &state_->way : nullptr, h);
     const double kept = memory_->momentum.end_substep(particles, forces, solids, state_->start, contact,
                                                       contacts.pushed_by_firm(),
                                                       second_order_ ? &memory_->second_order : nullptr, h);
@@ -101,32 +101,20 @@ template <class Real>
 void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h) {
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
-    state_.emplace(grid, forces.springs->has_bending(), forces.plate, forces.seam != nullptr);
-    if (forces.springs->damping_time() > 0) state_->way = VectorField<Real>(grid);
+    state_.emplace(grid, *forces.sheet, forces.bag != nullptr);
+    if (forces.sheet->damped()) state_->way = VectorField<Real>(grid);
   }
   if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid, parameters_);
   if (memory_->h != h) memory_->second_order.fill(Real(0));  // BDF2's formula is for equal steps
   memory_->h = h;
-  const bool tore = state_->soft && state_->soft->torn() != forces.springs->torn();
-  if (state_->h != h || tore) {
-    state_->h = h;
-    state_->soft = softened_springs(*forces.springs, *forces.context.cloth, particles.mass, h);
-    state_->kept_stiffness = state_->soft ? state_->soft->max_squared_frequency(particles.mass) /
-                                                forces.springs->max_squared_frequency(particles.mass)
-                                          : 1;
-    state_->stretched_to_twice = 0;
-    for (const SpringFamily& family : (state_->soft ? *state_->soft : *forces.springs).families()) {
-      const double count = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
-      state_->stretched_to_twice += count * family.stiffness * family.rest_length * family.rest_length / 2;
-    }
-    state_->motion = MotionScale<Real>(*forces.springs, particles.mass, h);
-  }
-  if (state_->torn != forces.springs->torn()) {
-    state_->torn = forces.springs->torn();
+  const bool tore = state_->soft && state_->soft->torn() != forces.sheet->torn();
+  if (state_->h != h || tore) measure_sheet(*forces.sheet, *forces.context.cloth, particles.mass, h);
+  if (state_->torn != forces.sheet->torn()) {
+    state_->torn = forces.sheet->torn();
     state_->piece_mass = state_->torn ? piece_masses(*state_->torn, particles) : std::vector<double>();
   }
-  if (state_->soft) forces.springs = &*state_->soft;
-  if (forces.gas == nullptr) state_->system.set_rank_one(0, {});
+  if (state_->soft) forces.sheet = &*state_->soft;
+  if (!forces.holds_gas()) state_->system.set_rank_one(0, {});
   Real* free = state_->system.finest().free();
   const Real* inverse_mass = particles.inverse_mass.row(0);
   const kernels::Components<Real> correction = memory_->correction.vector();
@@ -134,6 +122,22 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
     for (Real* component : {correction.x, correction.y, correction.z}) component[i] *= free[i];
   }
+}
+
+template <class Real>
+void Implicit<Real>::measure_sheet(const Sheet<Real>& sheet, const ClothDescription& cloth,
+                                   const Field<Real>& mass, double h) {
+  State& s = *state_;
+  s.h = h;
+  const Springs<Real>& springs = sheet.springs();
+  s.soft.reset();
+  s.kept_stiffness = 1;
+  if (const auto soft = softened_springs(springs, cloth, mass, h)) {
+    s.soft = sheet.with(*soft);
+    s.kept_stiffness = soft->max_squared_frequency(mass) / springs.max_squared_frequency(mass);
+  }
+  s.stretched_to_twice = (s.soft ? s.soft->springs() : springs).energy_at_twice(mass.grid());
+  s.motion = MotionScale<Real>(springs, mass, h);
 }
 
 template <class Real>
@@ -150,7 +154,7 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Force
   begin_formula(h);
   const bool solids = !memory_->contacts.empty();
   const bool touched =
-      solids || (forces.layers != nullptr && !forces.layers->empty()) || forces.springs->torn() != nullptr;
+      solids || (forces.layers != nullptr && !forces.layers->empty()) || forces.sheet->torn() != nullptr;
   s.target = s.motion.target(parameters_.tolerance * (touched ? kTouched : 1), solids);
 }
 
@@ -162,13 +166,10 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   auto& finest = s.system.finest();
 
   copy<Real>(kernels::components(particles.position), s.position, count);
-  forces.springs->linearise(grid, s.position, finest.matrix.links, s.h);
+  forces.sheet->linearise(grid, s.position, finest.matrix.links, s.h);
   forces.sum(particles, s.force);
-  if (forces.springs->damping_time() > 0) add_damping(particles, forces);
-  if (forces.gas != nullptr) {
-    forces.gas->add_force(particles, *forces.seam, forces.context.time, s.force);
-    s.system.set_rank_one(forces.gas->stiffness(), kernels::components(forces.gas->gradient()));
-  }
+  if (forces.sheet->damped()) add_damping(particles, forces);
+  if (forces.bag != nullptr) forces.bag->linearise(particles, forces.context.time, s.force, s.system);
   std::fill_n(finest.diagonal(), count, Real(0));
   const bool blocks = !memory_->contacts.empty() || needs_blocks(forces);
   finest.use_blocks(blocks);
@@ -188,12 +189,13 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   s.system.couplings().clear();
   if (!memory_->contacts.empty()) {
     memory_->contacts.add_to(finest.matrix.blocks, s.system.couplings(), s.b, s.system.bodies(),
-                             finest.diagonal(), forces.springs->node_stiffness(), s.piece_mass, s.move);
+                             finest.diagonal(), forces.sheet->springs().node_stiffness(), s.piece_mass,
+                             s.move);
   }
   if (forces.layers != nullptr) {
     forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
   }
-  if (forces.seam != nullptr) forces.seam->average(s.b);
+  if (forces.bag != nullptr) forces.bag->average(s.b);
   s.system.prepare();
 }
 
@@ -205,7 +207,7 @@ void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<
   const double end = forces.context.time;
   forces.for_each_pin_way(end - s.h, end,
                           [&](std::size_t node, const Vec3& moved) { add<Real>(way, node, moved); });
-  forces.springs->add_damping(particles.position, way, s.h, s.force);
+  forces.sheet->add_damping_of_way(particles.position, way, s.h, s.force);
 }
 
 template <class Real>

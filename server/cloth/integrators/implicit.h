@@ -95,19 +95,19 @@ class Implicit final : public Integrator<Real> {
   };
   /// All else that lives on one grid.
   struct State {
-    State(const Grid& grid, bool has_bending, const Plate<Real>* plate, bool sewn);
+    State(const Grid& grid, const Sheet<Real>& sheet, bool sewn);
 
     Multigrid<Real> system;
     ConjugateGradients<Real> solver;
     NodeArrays<Real> numbers, vectors;
     VectorField<Real> start, start_velocity, force;
-    VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where springs are undamped
+    VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where the sheet is undamped
     kernels::BackwardStep<Real> step;
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
     std::vector<OneSidedSpring> one_sided;  ///< those of a change
     double h = 0;                           ///< s, of the last step's substeps
-    std::optional<Springs<Real>> soft;      ///< in place of the cloth's, where those are too stiff for h
+    std::optional<Sheet<Real>> soft;        ///< in place of the cloth's, where that is too stiff for h
     /// Share of their stiffness that softened springs keep. They are allowed that share of the error: they
     /// would stretch by as much more than the cloth's with the same energy.
     double kept_stiffness = 1;
@@ -121,10 +121,13 @@ class Implicit final : public Integrator<Real> {
   };
 
   void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
+  /// Lays out what depends on the springs for substeps of h seconds.
+  void measure_sheet(const Sheet<Real>& sheet, const ClothDescription& cloth, const Field<Real>& mass,
+                     double h);
   void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
-  /// Adds the springs' damping, by the nodes' moves so far, to the forces.
+  /// Adds the sheet's damping, by the nodes' moves so far, to the forces.
   void add_damping(const Particles<Real>& particles, const Forces<Real>& forces);
   struct NewtonReport {
     int linear_iterations = 0;

@@ -96,11 +96,12 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
         fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
     const bool done = report.brought_in <= 0 && error <= allowed && changed.struck <= kStruck;
     const bool last = left <= 1 - (stray && rough ? kSpareSearches : kSpareIterations);
-    if (!last && (!done || let_go(particles) || hold_inside(particles, *forces.springs, allowed))) continue;
+    if (!last && (!done || let_go(particles) || hold_inside(particles, forces.sheet->springs(), allowed)))
+      continue;
     if (!forces.layered) break;
     const bool meet = forces.layers != nullptr && hold_meeting(particles, *forces.layers);
     const bool enter =
-        heap && heap_rounds++ < kHeapRounds && hold_inside(particles, *forces.springs, allowed);
+        heap && heap_rounds++ < kHeapRounds && hold_inside(particles, forces.sheet->springs(), allowed);
     if (!meet && !enter) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }
@@ -172,13 +173,8 @@ auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -
 
 template <class Real>
 auto Implicit<Real>::model_change(const Forces<Real>& forces, double decrease) const -> ChangeReport {
-  kernels::SpringModelError error =
-      forces.springs->model_error(state_->system.grid(), state_->position, state_->change);
-  if (forces.gas != nullptr) {
-    const double gas = forces.gas->model_error(state_->position, state_->change);
-    error.sum += gas;
-    error.magnitude += std::abs(gas);
-  }
+  const kernels::SpringModelError error =
+      forces.model_error(state_->system.grid(), state_->position, state_->change);
   const double rounding = double(std::numeric_limits<Real>::epsilon()) *
                           (kRounding * error.magnitude + kSolveRounding * decrease);
   return {.brought_in = error.sum - decrease + rounding,

@@ -36,12 +36,6 @@ double kinetic_energy(const Solid& solid) {
 }
 
 template <class Real>
-double stored(const Forces<Real>& forces, const VectorField<Real>& position) {
-  const double springs = forces.springs->energy(position);
-  return forces.plate == nullptr ? springs : springs + forces.plate->energy(position);
-}
-
-template <class Real>
 Eigen::Matrix3d inertia_about(const Vec3& centre, const Particles<Real>& particles) {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for_each_node(particles.grid(), [&](std::size_t, int r, int c) {
@@ -87,7 +81,7 @@ auto MomentumKeeper<Real>::motion_of(const Particles<Real>& particles) -> Motion
 
 template <class Real>
 bool MomentumKeeper<Real>::applies(const Particles<Real>& particles, const Forces<Real>& forces) {
-  return forces.layers == nullptr && forces.gas == nullptr && forces.springs->torn() == nullptr &&
+  return forces.layers == nullptr && !forces.holds_gas() && forces.sheet->torn() == nullptr &&
          !is_held(particles);
 }
 
@@ -184,8 +178,8 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   if (linear + square > 0) {
     const Vec3 mean = (now_.momentum + momentum) / (2 * now_.mass);  // the centre's velocity
     const double had =
-        now_.kinetic + stored(forces, start) + given.work + given.energy - mean.dot(given.momentum);
-    const double left = had - end.kinetic - stored(forces, particles.position);
+        now_.kinetic + forces.sheet->energy(start) + given.work + given.energy - mean.dot(given.momentum);
+    const double left = had - end.kinetic - forces.sheet->energy(particles.position);
     const double share = share_within(left + motion_energy(particles).inner, linear, square);
     turn *= share;
     excess = share * (linear + share * square) - std::max(0.0, left);

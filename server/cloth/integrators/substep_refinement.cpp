@@ -69,7 +69,7 @@ int asked_by_tension(const Particles<Real>& particles, const Forces<Real>& force
   const double needed = forces.tension(particles);
   if (needed == 0) return 1;
   int asked = 1;
-  for (const SpringFamily& family : forces.springs->families()) {
+  for (const SpringFamily& family : forces.sheet->springs().families()) {
     if (!is_structural(family)) continue;
     const double most = 1 / needed - 1 / family.stiffness;  // m/N; 0 or less where it bursts anyhow
     asked = std::max(asked, most > 0 ? times(std::sqrt(yielding(particles, h) / most), 1) : kMost);
@@ -115,7 +115,7 @@ template <class Real>
 int SubstepRefinement<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces,
                                         Contact<Real>* contact, const std::vector<Solid>& solids, double h,
                                         double dt) {
-  const Springs<Real>& springs = *forces.springs;
+  const Springs<Real>& springs = forces.sheet->springs();
   const kernels::StateExtremes<Real> most = kernels::state_extremes(
       particles.grid(), kernels::components(particles.position), kernels::components(particles.velocity));
   int asked = asked_by_tension(particles, forces, h);

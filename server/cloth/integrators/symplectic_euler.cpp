@@ -12,11 +12,6 @@
 namespace weft {
 namespace {
 
-/// In substeps. Where a spring passes its limit its frequency jumps, and with it what symplectic Euler keeps
-/// instead of the energy: without damping a sheet that rings about its limits gains without bound. With this
-/// much a sheet let go at 1.055 or 1.1 times its size, limit 1.05, never has more than it began with (20 s).
-constexpr double kLimitDamping = 0.25;
-
 /// Substeps for which slow effects are found once: an odd number, so that a blow can be in their midst, of at
 /// most so many, and no more than damp a node's speed by this share. A flag at level 5 then has 0.336 J of
 /// kinetic energy in the mean of 45 s, and 0.344 J by 300 substeps with the air's force in each (both +-
@@ -75,12 +70,8 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 template <class Real>
 auto SymplecticEuler<Real>::plan(const Particles<Real>& particles, const Forces<Real>& forces, double dt)
     -> Plan {
-  const Springs<Real>& springs = *forces.springs;
-  const double of_springs = springs.max_squared_frequency(particles.mass);
-  double squared_frequency = springs.limited() ? (1 + 2 * kLimitDamping) * of_springs : of_springs;
-  if (forces.plate != nullptr) squared_frequency += forces.plate->max_squared_frequency(particles.mass);
+  const auto [squared_frequency, of_springs, sheet_rate] = forces.sheet->explicit_bounds(particles.mass);
   const DampingRates effects = forces.max_damping_rates(particles);
-  const double sheet_rate = springs.max_damping_rate(particles.mass);
   const auto plan_for = [&](int substeps, double rate) -> Plan {
     const double h = dt / substeps, room = 4 - squared_frequency * h * h;
     // What the rate may grow to within this step: half of the room that the springs leave.
@@ -96,7 +87,8 @@ auto SymplecticEuler<Real>::plan(const Particles<Real>& particles, const Forces<
     return stable_substeps(squared_frequency, at_rate, dt, description_.safety);
   };
   const int substeps = fewest(rate);
-  const int turning = refinement(springs.motion(particles), std::sqrt(of_springs), dt / substeps);
+  const int turning =
+      refinement(forces.sheet->springs().motion(particles), std::sqrt(of_springs), dt / substeps);
   const auto refined = [&](int count) { return std::min(count * turning, kMaxSubsteps); };
   if (forces.any_slow()) {
     // What comes in blows sets no limit to the substeps between them.
@@ -151,10 +143,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     } else {
       forces.sum(particles, force_);
     }
-    if (forces.springs->damping_time() > 0) add_damping(particles, forces, h);
-    if (forces.springs->limited()) {
-      forces.springs->add_limit_damping(particles.position, particles.velocity, kLimitDamping * h, force_);
-    }
+    add_damping(particles, forces, h);
     if (together > 1 && s == blow_end) {
       blow_begin = s;
       blow_end += odd_at_most(std::min(together, report.substeps - s));
@@ -167,7 +156,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     if (forces.layers != nullptr) forces.layers->resolve(particles, Substep::of(s, report.substeps, dt));
     if (contact == nullptr) continue;
     report.nodes_in_contact = contact->resolve(particles, solids, Substep::of(s, report.substeps, dt));
-    if (forces.seam != nullptr) forces.seam->join(particles);
+    forces.join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
   bound_.end_step(particles, forces, dt);
@@ -176,11 +165,13 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
 
 template <class Real>
 void SymplecticEuler<Real>::add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h) {
-  const kernels::Components<Real> velocity = kernels::components(particles.velocity);
-  // The update takes it from them again.
-  forces.for_each_pin_way(forces.context.time, forces.context.time + h,
-                          [&](std::size_t node, const Vec3& way) { add<Real>(velocity, node, way / h); });
-  forces.springs->add_damping(particles.position, velocity, force_);
+  if (forces.sheet->damped()) {
+    const kernels::Components<Real> velocity = kernels::components(particles.velocity);
+    // The update takes it from them again.
+    forces.for_each_pin_way(forces.context.time, forces.context.time + h,
+                            [&](std::size_t node, const Vec3& way) { add<Real>(velocity, node, way / h); });
+  }
+  forces.sheet->add_damping(particles.position, particles.velocity, h, force_);
 }
 
 template <class Real>

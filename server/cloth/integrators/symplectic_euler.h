@@ -53,7 +53,7 @@ class SymplecticEuler final : public Integrator<Real> {
   /// do: each change of the substeps changes what symplectic Euler keeps instead of the energy.
   int refinement(const kernels::SpringMotion& most, double frequency, double h);
 
-  /// What the springs' damping does in a substep of h seconds that begins at forces.context.time.
+  /// What the sheet's damping does in a substep of h seconds that begins at forces.context.time.
   void add_damping(Particles<Real>& particles, const Forces<Real>& forces, double h);
 
   /// Slow effects' force, which acts for so many seconds.

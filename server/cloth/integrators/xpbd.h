@@ -1,9 +1,7 @@
 #pragma once
-#include <array>
-
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/sheet_projection.h"
 #include "cloth/integrators/substep_refinement.h"
-#include "cloth/kernels/plate_projection_kernels.h"
 
 namespace weft {
 
@@ -20,24 +18,10 @@ int substeps(const XpbdDescription& description, double dt);
 /// between nodes of masses m_i, m_j is left up to F h^2 (1/m_i + 1/m_j) longer than F/k says. Over the N
 /// cells of a sheet hung by its edge that adds up to about g h^2 N^2 / 2.
 ///
-/// Damped springs (strain_damping) remember their multipliers from substep to substep (recall in
-/// xpbd_kernels.h), and are left no longer than undamped ones. A violent motion whose nodes move by a
-/// spring's length within a substep can bring in energy there: measured at level 6 with steps of 0.2 s, not
-/// with 1/15 s.
-///
-/// Where a plate's stiffest modes turn within a substep (w h > 2) the springs' damping time is at most the
-/// substep: the plate's projection, made without regard to the springs', leaves them a rate of length in
-/// every substep that a longer one answers with ever larger multipliers (a flat sheet of half a metre had
-/// 1e10 J).
-///
 /// A sheet in violent motion, struck, or blown up has up to 4 times the substeps (substep_refinement.h).
 ///
-/// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
-/// plate's stiffest modes are much faster than the substeps.
-///
-/// The families are projected in a fixed order, structural springs last. Measured: fixed orders all come to
-/// rest and differ little; orders that alternate or are shuffled from substep to substep shake the cloth for
-/// ever, and so do corrections 1.2 times as large.
+/// A plate's stencils are softer than asked for where the plate's stiffest modes are much faster than the
+/// substeps.
 template <class Real>
 class Xpbd final : public Integrator<Real> {
  public:
@@ -47,7 +31,7 @@ class Xpbd final : public Integrator<Real> {
                         std::vector<Solid>& solids, double time, double dt) override;
   void restart() override {
     force_ = rounded_off_ = {};
-    multiplier_.clear();
+    projection_.restart();
     refinement_.restart();
     times_ = 1;
   }
@@ -55,18 +39,14 @@ class Xpbd final : public Integrator<Real> {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(refinement_, times_, rounded_off_, sheet_, multiplier_, families_);
+    archive(refinement_, times_, rounded_off_, sheet_, projection_);
     if (Archive::is_loading::value && rounded_off_.grid().rows > 0) lay_out(rounded_off_.grid());
   }
 
  private:
-  /// Lays out the work arrays for these particles, and the springs for substeps of h seconds.
+  /// Lays out the work arrays for these particles, and the sheet for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   void lay_out(const Grid& grid);
-  void prepare_springs(const Springs<Real>& springs, const Grid& grid, double damping_time, double h);
-  /// Those of families that were there before; families without stiffness are left out of the list.
-  void keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes);
-  void prepare_plate(const Plate<Real>& plate, double h);
   /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
   void take_back_pins(const Forces<Real>& forces, double share, double h);
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
@@ -76,13 +56,9 @@ class Xpbd final : public Integrator<Real> {
   int times_ = 1;  ///< so many times the described substeps had the last step
   VectorField<Real> force_, rounded_off_;
   kernels::QuarterRows layout_;
-  std::vector<Real, AlignedAllocator<Real>> sheet_;       ///< the nodes in that layout
-  std::vector<Real, AlignedAllocator<Real>> stiffness_;   ///< a row of lanes for each family
-  std::vector<Real, AlignedAllocator<Real>> row_;         ///< one row in the particles' own order
-  std::vector<Real, AlignedAllocator<Real>> multiplier_;  ///< of damped springs: a row of lanes for each row
-  std::vector<std::array<int, 2>> families_;              ///< rows and columns of those
-  std::vector<kernels::XpbdSprings<Real>> springs_;
-  std::vector<Real, AlignedAllocator<Real>> plate_;  ///< its stiffnesses in that layout; empty without one
+  std::vector<Real, AlignedAllocator<Real>> sheet_;  ///< the nodes in that layout
+  std::vector<Real, AlignedAllocator<Real>> row_;    ///< one row in the particles' own order
+  SheetProjection<Real> projection_;
 };
 
 extern template class Xpbd<float>;

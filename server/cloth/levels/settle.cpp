@@ -26,12 +26,10 @@ int steps_from(Unsettled by) {
   }
 }
 
-/// Springs and plate hold no more than `energy`, J.
+/// The sheet holds no more than `energy`, J.
 template <class Real>
 bool hold_at_most(double energy, const Particles<Real>& particles, const Forces<Real>& forces) {
-  const double springs = forces.springs->energy(particles.position);
-  const double held = springs + (forces.plate != nullptr ? forces.plate->energy(particles.position) : 0);
-  return held <= energy;
+  return forces.sheet->energy(particles.position) <= energy;
 }
 
 /// Some free node is deeper in a solid than kShallow cells.

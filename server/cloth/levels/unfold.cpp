@@ -77,10 +77,10 @@ void unfold_from_below(Particles<Real>& sheet, const ClothDescription& cloth, in
     split(coarse, sheet);
     take_held(before, sheet);
   }
-  const Springs<Real> springs(cloth.material, cloth.discretization, cloth.size, sheet.grid());
+  const Sheet<Real> resisting(Springs<Real>(cloth.material, cloth.discretization, cloth.size, sheet.grid()));
   if (level == kCoarsest) stir(sheet, kWayOut * cloth.size.maxCoeff());
   for (int left = level > kCoarsest ? 1 : kTimes; left > 0; --left) {
-    settle<Real>(sheet, Unsettled::by_tangle, {.springs = &springs, .context = {.cloth = &cloth}}, nullptr,
+    settle<Real>(sheet, Unsettled::by_tangle, {.sheet = &resisting, .context = {.cloth = &cloth}}, nullptr,
                  {}, std::numeric_limits<double>::infinity());
   }
 }

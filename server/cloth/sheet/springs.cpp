@@ -292,6 +292,16 @@ double Springs<Real>::energy(const VectorField<Real>& position) const {
 }
 
 template <class Real>
+double Springs<Real>::energy_at_twice(const Grid& grid) const {
+  double sum = 0;
+  for (const SpringFamily& family : families_) {
+    const double count = (grid.rows - family.rows) * (grid.cols - std::abs(family.cols));
+    sum += count * family.stiffness * family.rest_length * family.rest_length / 2;
+  }
+  return sum;
+}
+
+template <class Real>
 StructuralStrain Springs<Real>::structural_strain(const VectorField<Real>& position) const {
   StructuralStrain strain;
   double sum = 0;

@@ -83,6 +83,8 @@ class Springs {
   double node_stiffness() const;
   /// J.
   double energy(const VectorField<Real>& position) const;
+  /// J, of all springs of a whole sheet at twice their length, by their stiffness short of any limit.
+  double energy_at_twice(const Grid& grid) const;
   StructuralStrain structural_strain(const VectorField<Real>& position) const;
   /// The largest strain of a structural or shear spring, and speed of one's ends past each other.
   kernels::SpringMotion motion(const Particles<Real>& particles) const;

@@ -33,7 +33,7 @@ Cloth<Real>::Cloth(const ClothDescription& description, const std::vector<Effect
   const int level = std::clamp(description_.initial_level, description_.min_level, description_.max_level);
   enter_level(level, start<Real>(description_, level));
   perturb(description_, seed, particles_);
-  if (seam_) seam_->join(particles_);
+  if (bag_) bag_->join(particles_);
   fill();
   begins_ = !description_.nodes.empty() && !description_.sewn;
   hand_to_guard();
@@ -50,39 +50,24 @@ void Cloth<Real>::compose(const std::vector<EffectDescription>& effects) {
   const Vec3 gravity = total_gravity(effects);
   had_ += gravitational_energy(particles_, gravity - gravity_);
   gravity_ = gravity;
-  damping_time_ = 0;
-  bends_plate_ = limits_strain_ = false;
+  sheet_effects_ = SheetEffects(effects);
   tearing_.reset();
   filling_.reset();
   for (const EffectDescription& effect : effects) {
     const auto* inflation = std::get_if<InflationEffect>(&effect);
     if (inflation != nullptr && inflation->volume && description_.sewn) filling_ = *inflation;
-    if (const auto* damping = std::get_if<StrainDampingEffect>(&effect)) damping_time_ = damping->time;
     if (const auto* tearing = std::get_if<TearingEffect>(&effect)) tearing_ = *tearing;
-    bends_plate_ = bends_plate_ || std::holds_alternative<PlateBendingEffect>(effect);
-    limits_strain_ = limits_strain_ || std::holds_alternative<StrainLimitEffect>(effect);
   }
 }
 
 template <class Real>
 void Cloth<Real>::fill() {
-  if (!filling_) {
-    gas_.reset();
-  } else if (!gas_ || gas_->inflation() != *filling_) {
-    const double amount = gas_ ? gas_->amount(time_) : Gas<Real>::amount_of_air(particles_);
-    gas_ = std::make_unique<Gas<Real>>(*filling_, amount, time_);
-    if (!gas_->fills(time_)) unsettled_ = Unsettled::by_gas;
-  }
+  if (bag_ && bag_->fill(filling_, particles_, time_)) unsettled_ = Unsettled::by_gas;
 }
 
 template <class Real>
 ContactCounters Cloth<Real>::contact_counters() const {
   return contact_ ? earlier_contacts_ + contact_->counters() : earlier_contacts_;
-}
-
-template <class Real>
-double Cloth<Real>::elastic_energy() const {
-  return springs_.energy(particles_.position) + (plate_ ? plate_->energy(particles_.position) : 0.0);
 }
 
 template <class Real>
@@ -97,7 +82,7 @@ void Cloth<Real>::request_level(int level) {
 
 template <class Real>
 bool Cloth<Real>::apply_pending_level() {
-  if (std::exchange(begins_, false) && is_tangled(particles_, springs_)) {
+  if (std::exchange(begins_, false) && is_tangled(particles_, springs())) {
     unfold(particles_, description_, level_);
     hand_to_guard();
   }
@@ -139,12 +124,16 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
   if (description_.sewn) {
-    seam_.emplace(particles_.grid());
-    seam_->join(particles_);
+    if (bag_) {
+      bag_->enter(particles_.grid());
+    } else {
+      bag_.emplace(particles_.grid());
+    }
+    bag_->join(particles_);
   }
   hold(pulled);
   if (walls_) take_over_walls();
-  make_springs();
+  make_sheet();
   earlier_contacts_ = contact_counters();
   contact_.reset();
   integrator_->restart();
@@ -162,26 +151,21 @@ void Cloth<Real>::hand_to_guard() {
 }
 
 template <class Real>
-void Cloth<Real>::make_springs() {
-  springs_ = Springs<Real>(description_.material, description_.discretization, description_.size,
-                           particles_.grid(), damping_time_, limits_strain_);
-  if (torn_) springs_.tear(torn_);
-  plate_.reset();
-  if (bends_plate_)
-    plate_.emplace(description_.material.rigidity, description_.size, particles_.inverse_mass, torn_.get());
+void Cloth<Real>::make_sheet() {
+  sheet_ = Sheet<Real>(description_, sheet_effects_, particles_.inverse_mass, torn_);
 }
 
 template <class Real>
 void Cloth<Real>::tear() {
-  if (surely_holds(springs_, particles_.position, *tearing_)) return;
+  if (surely_holds(springs(), particles_.position, *tearing_)) return;
   const std::vector<Link> breaking =
-      links_to_break(link_loads(springs_, particles_.position, *tearing_), torn_.get());
+      links_to_break(link_loads(springs(), particles_.position, *tearing_), torn_.get());
   if (breaking.empty()) return;
   if (!walls_) walls_.emplace(description_.base_cells, description_.max_level);
   for (const Link& link : breaking) walls_->add(level_, link);
   take_over_walls();
-  make_springs();
-  if (plate_) integrator_->restart();  // which has its own copies of the plate
+  make_sheet();
+  if (plate() != nullptr) integrator_->restart();  // which has its own copies of the plate
   integrator_->torn();
   hand_to_guard();
   wake();
@@ -205,7 +189,7 @@ void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
   guard_.repair(particles_);
   compose(effects);
   fill();
-  make_springs();
+  make_sheet();
   node_air_.reset();
   integrator_ = make_integrator<Real>(guard_.method());  // without the arrays of what is gone
   hand_to_guard();
@@ -214,10 +198,10 @@ void Cloth<Real>::set_effects(const std::vector<EffectDescription>& effects) {
 
 template <class Real>
 void Cloth<Real>::tune_effects(const std::vector<EffectDescription>& effects) {
-  const double damping_time = damping_time_;
+  const SheetEffects before = sheet_effects_;
   guard_.repair(particles_);
   compose(effects);
-  if (damping_time_ != damping_time) return set_effects(effects);
+  if (sheet_effects_ != before) return set_effects(effects);
   fill();
   hand_to_guard();
   wake();
@@ -229,7 +213,7 @@ void Cloth<Real>::set_material(const Material& material) {
   guard_.repair(particles_);
   description_.material = material;
   const double before = elastic_energy();
-  make_springs();
+  make_sheet();
   held_ += elastic_energy() - before;  // what it gains so is no level's
   had_ += elastic_energy() - before;
   integrator_->stiffness_changed();
@@ -351,7 +335,7 @@ template <class Real>
 void Cloth<Real>::set_pins(const std::vector<Vec3>& pulls) {
   guard_.repair(particles_);
   hold(pulls);
-  make_springs();  // a plate is clamped where it is held
+  make_sheet();  // a plate is clamped where it is held
   integrator_->restart();
   hand_to_guard();
   wake();

@@ -30,15 +30,16 @@ class Cloth {
   const Particles<Real>& particles() const { return particles_; }
   /// Whoever writes to them wakes the cloth.
   Particles<Real>& particles() { return particles_; }
-  const Springs<Real>& springs() const { return springs_; }
+  const Sheet<Real>& sheet() const { return sheet_; }
+  const Springs<Real>& springs() const { return sheet_.springs(); }
   /// nullptr where plates are not bent.
-  const Plate<Real>* plate() const { return plate_ ? &*plate_ : nullptr; }
+  const Plate<Real>* plate() const { return sheet_.plate(); }
   /// nullptr where the cloth is not sewn.
-  const Seam<Real>* seam() const { return seam_ ? &*seam_ : nullptr; }
+  const Seam<Real>* seam() const { return bag_ ? &bag_->seam() : nullptr; }
   /// nullptr where no gas is shut in.
-  const Gas<Real>* gas() const { return gas_.get(); }
+  const Gas<Real>* gas() const { return bag_ ? bag_->gas() : nullptr; }
   /// J, of springs and plate.
-  double elastic_energy() const;
+  double elastic_energy() const { return sheet_.energy(particles_.position); }
   /// nullptr while the cloth is whole.
   const Walls* walls() const { return walls_ ? &*walls_ : nullptr; }
   double total_mass() const { return total_mass_; }  ///< kg; the same at every level
@@ -87,8 +88,8 @@ class Cloth {
   void serialize(Archive& archive);
   /// The state that was read is of a cloth of other effects, by which it had another energy.
   bool of_other_effects(const Cloth& other) const {
-    return composed_ != other.composed_ || gravity_ != other.gravity_ || bends_plate_ != other.bends_plate_ ||
-           limits_strain_ != other.limits_strain_ || damping_time_ != other.damping_time_;
+    return composed_ != other.composed_ || gravity_ != other.gravity_ ||
+           sheet_effects_ != other.sheet_effects_;
   }
   /// Takes hold and lets go of what pins begin and end to hold at `time`, s, when a step begins; the cloth
   /// wakes.
@@ -186,7 +187,7 @@ class Cloth {
   double energy_of_nodes() const;  ///< J, of motion and height
   /// The state is the last good one from now on, if it is good.
   void hand_to_guard();
-  void make_springs();
+  void make_sheet();
   void take_over_walls();
   /// Breaks what the step has loaded beyond its strength.
   void tear();
@@ -232,20 +233,16 @@ class Cloth {
   bool begins_ = false;                  ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
-  double time_ = 0;                         ///< s, at the end of the last step that was made
-  Vec3 gravity_{0, 0, 0};                   ///< m/s2, of all gravity effects
-  double damping_time_ = 0;                 ///< s, of the springs (StrainDampingEffect)
-  bool bends_plate_ = false;                ///< PlateBendingEffect is there
-  bool limits_strain_ = false;              ///< StrainLimitEffect is there
+  double time_ = 0;        ///< s, at the end of the last step that was made
+  Vec3 gravity_{0, 0, 0};  ///< m/s2, of all gravity effects
+  SheetEffects sheet_effects_;
   std::optional<InflationEffect> filling_;  ///< InflationEffect is there, and gas is shut in
   std::optional<TearingEffect> tearing_;
   std::optional<Walls> walls_;             ///< made by the first tear; stay if tearing_ goes
   std::shared_ptr<const TornLinks> torn_;  ///< by the walls at this level; nullptr while the cloth is whole
   std::vector<FaceRun> whole_faces_;       ///< of torn_
-  Springs<Real> springs_;
-  std::optional<Plate<Real>> plate_;
-  std::optional<Seam<Real>> seam_;  ///< at this level, if the cloth is sewn
-  std::unique_ptr<Gas<Real>> gas_;
+  Sheet<Real> sheet_;
+  std::optional<Bag<Real>> bag_;                                ///< if the cloth is sewn
   std::vector<std::unique_ptr<Effect<Real>>> effects_;          ///< the description's, then what was added
   std::size_t composed_ = 0;                                    ///< of effects_, the description's
   SoftPins<Real>* soft_pins_ = nullptr;                         ///< one of effects_ as long as some hold

@@ -56,11 +56,11 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   if (pins_.moving() && pins_.begin_step(particles_, solids, time, dt)) wake();
   if (soft_pins_ != nullptr && soft_pins_->begin_step(solids, time, dt)) wake();
   if (resting() && grabs_ != nullptr) wake();
-  if (gas_ && gas_->fills(time)) wake();
+  if (bag_ && bag_->fills(time)) wake();
   work_ = 0;
   if (sleep_.through(particles_, solids, air) || guard_.stands_still())
     return {.nodes_in_contact = nodes_in_contact_};
-  leave_plane(springs_, particles_);
+  leave_plane(springs(), particles_);
   const WorkLimit limit(most_work_);
   AdvanceReport report;
   try {
@@ -103,12 +103,7 @@ AdvanceReport Cloth<Real>::advance_soundly(const std::vector<Solid>& solids, con
 
 template <class Real>
 Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
-  return {.springs = &springs_,
-          .effects = &effects_,
-          .context = context,
-          .plate = plate(),
-          .seam = seam(),
-          .gas = gas_.get()};
+  return {.sheet = &sheet_, .effects = &effects_, .context = context, .bag = bag_ ? &*bag_ : nullptr};
 }
 
 template <class Real>
@@ -134,7 +129,7 @@ Drive Cloth<Real>::drive(const Forces<Real>& forces, double dt) const {
       return effect->feels_wind() == in_wind && effect->drives(forces.context);
     });
   };
-  if (forces.gas != nullptr || forces.layers != nullptr ||
+  if (forces.holds_gas() || forces.layers != nullptr ||
       (forces.pins != nullptr && way_of_pins(time, time + dt) > 0) || any_effect(false) ||
       std::any_of(solids_.begin(), solids_.end(), [](const Solid& solid) {
         return solid.yields() || !solid.velocity.isZero(0) || !solid.turn.isZero(0);
@@ -156,7 +151,7 @@ template <class Real>
 void Cloth<Real>::forget_attempt() {
   if (settled_ != Unsettled::no) unsettled_ = std::exchange(settled_, Unsettled::no);
   // Work arrays that must stay zero outside the grid may hold what is not a number now.
-  make_springs();
+  make_sheet();
   integrator_ = make_integrator<Real>(guard_.method());
   earlier_contacts_ = contact_counters();
   contact_.reset();

@@ -75,15 +75,16 @@ void Cloth<Real>::serialize(Archive& archive) {
   serialize_integrator(archive);
   serialize_contact(archive);
   archive(unsettled_, settled_, held_, had_, begins_, time_);
-  bool filled = gas_ != nullptr;
+  std::optional<Gas<Real>> shut_in;
+  if (gas() != nullptr) shut_in = *gas();
+  bool filled = shut_in.has_value();
   archive(filled);
   if (filled) {
-    Gas<Real> gas = gas_ ? *gas_ : Gas<Real>({}, 0, 0);
-    archive(gas);
-    if (Archive::is_loading::value) gas_ = std::make_unique<Gas<Real>>(std::move(gas));
+    if (!shut_in) shut_in.emplace(InflationEffect{}, 0, 0);
+    archive(*shut_in);
   }
-  if (Archive::is_loading::value) {
-    if (!filled || !filling_) gas_ = nullptr;
+  if (Archive::is_loading::value && bag_) {
+    bag_->take(filled && filling_ ? std::move(shut_in) : std::nullopt);
     fill();
   }
   serialize_soft_pins(archive);
@@ -118,11 +119,11 @@ void Cloth<Real>::serialize_sheet(Archive& archive) {
       whole_faces_.clear();
       if (tears) take_over_walls();
     }
-    if (description_.sewn) seam_.emplace(particles_.grid());
+    if (bag_) bag_->enter(particles_.grid());
     if (grid != particles_.grid()) contact_.reset();
     if (grid != particles_.grid() || !same_tears || material != description_.material ||
         inverse_mass != particles_.inverse_mass.values()) {
-      make_springs();
+      make_sheet();
       integrator_->restart();
     }
   }

@@ -12,15 +12,15 @@ namespace weft {
 namespace {
 
 using test::each_node;
+using test::EffectSheet;
 using test::get;
 using test::set;
-using test::Sheet;
 using test::tilt;
 using test::total;
 
 TEST(Aerodynamics, PushesAFaceByTheDynamicPressure) {
   // Face on to 3 m/s: F = 1/2 rho C w^2 A = 0.5 * 1.225 * 1.2 * 9 * 2 m2 = 13.23 N.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.wind = {{0, 0, -1}, 3.0};
   const Vec3 force = total(sheet.forces(Aerodynamics<double>({1.225, 1.2})));
   EXPECT_LT((force - Vec3(0, 0, -13.23)).norm(), 1e-12);
@@ -29,7 +29,7 @@ TEST(Aerodynamics, PushesAFaceByTheDynamicPressure) {
 TEST(Aerodynamics, FeelsOnlyTheNormalPartOfTheWind) {
   // Tilted by 60 degrees: w.n = 3 cos60 = 1.5 m/s, so a quarter of the pressure, along the normal (0, -sin60,
   // cos60).
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   tilt(sheet.particles, std::numbers::pi / 3);
   sheet.wind = {{0, 0, 1}, 3.0};
   const Vec3 force = total(sheet.forces(Aerodynamics<double>({1.225, 1.2})));
@@ -40,7 +40,7 @@ TEST(Aerodynamics, FeelsOnlyTheNormalPartOfTheWind) {
 
 TEST(Aerodynamics, DependsOnTheRelativeVelocity) {
   // Moving with the air: no force; moving at it: twice the speed, four times the force.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.wind = {{0, 0, -1}, 3.0};
   each_node(sheet.particles.grid(), [&](int r, int c) { set(sheet.particles.velocity, r, c, {0, 0, -3}); });
   EXPECT_LT(total(sheet.forces(Aerodynamics<double>({1.225, 1.2}))).norm(), 1e-12);
@@ -51,7 +51,7 @@ TEST(Aerodynamics, DependsOnTheRelativeVelocity) {
 TEST(Aerodynamics, RateBoundsTheForcesSlope) {
   // d/dv of 1/2 rho C (w - v)^2 A is rho C w A; over the mass 0.1 A: 1.225 * 1.2 * 3 / 0.1 = 44.1 /s for a
   // flat sheet.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.wind = {{0, 0, -1}, 3.0};
   const double rate = Aerodynamics<double>({1.225, 1.2}).max_damping_rate(sheet.particles, sheet.context());
   EXPECT_GE(rate, 44.1 * (1 - 1e-12));
@@ -61,7 +61,7 @@ TEST(Aerodynamics, RateBoundsTheForcesSlope) {
 TEST(Aerodynamics, GrowsOnlyLinearlyBeyondWhatTheSubstepBears) {
   // Held to a rate of 10 /s where the flow asks for 44.1: |w.A| counts as 10 m / (rho C), so that the force
   // is 1/2 rho C |w.A| w = 10 m w / 2 = 0.5 * 10 * 0.1 * 2 * 3 = 3 N. A limit above the rate changes nothing.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.wind = {{0, 0, -1}, 3.0};
   EffectContext context = sheet.context();
   context.damping_limit = 10;
@@ -77,7 +77,7 @@ TEST(Aerodynamics, GrowsOnlyLinearlyBeyondWhatTheSubstepBears) {
 TEST(Aerodynamics, DragGoesWithTheWindAndLiftAcrossIt) {
   // Tilted by 60 degrees: (n.e) = 1/2, w_n = 1.5 m/s. Drag alone: 13.23 N / 4 (n.e) along e = (0, 0, 1). Lift
   // alone: 13.23 N / 4 (n - (n.e) e) with n = (0, -sin60, cos60).
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   tilt(sheet.particles, std::numbers::pi / 3);
   sheet.wind = {{0, 0, 1}, 3.0};
   const Vec3 drag = total(sheet.forces(Aerodynamics<double>({1.225, 1.2, 0.0})));
@@ -89,7 +89,7 @@ TEST(Aerodynamics, DragGoesWithTheWindAndLiftAcrossIt) {
 }
 
 TEST(Aerodynamics, LiftIsAsDragByDefault) {
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   test::randomise(sheet.particles.position, -1, 1, 1);
   test::randomise(sheet.particles.velocity, -1, 1, 2);
   sheet.wind = {{0, 0.6, 0.8}, 3.0};
@@ -105,7 +105,7 @@ struct Slope {
   double bound;
 };
 Slope slope_of(const AerodynamicsEffect& parameters, const Vec3& direction, double angle) {
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.particles = test::flat_sheet<double>(2, 2, {0.5, 0.25});
   tilt(sheet.particles, angle);
   sheet.wind = {direction.normalized(), 3.0};
@@ -160,7 +160,7 @@ TEST(Aerodynamics, DampingIsPositiveAndNoLessThanTheForcesSlopeWhateverDragAndLi
 // --- Air that differs from node to node ---
 
 TEST(NodeAirForces, AreThoseOfAUniformWindWhereTheAirIsTheSameEverywhere) {
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   test::randomise(sheet.particles.position, -1, 1, 1);
   test::randomise(sheet.particles.velocity, -1, 1, 2);
   sheet.wind = {{0, 0.6, 0.8}, 2.5};  // (0, 1.5, 2): exact in single precision
@@ -187,7 +187,7 @@ TEST(NodeAirForces, EachNodeAndFaceFeelsItsOwnAir) {
   // Still on the left half, 2 m/s on the right: the paper's wind of 0.5 N at 1 m/s is 1 N there. The pressure
   // on a face goes by the mean of its corners' air: 0, 1/2 rho C (1 m/s)^2 on the faces between, and four
   // times that, each of 1/16 m2.
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   VectorField<float> air(sheet.particles.grid());
   each_node(air.grid(), [&](int r, int c) { set(air, r, c, {0, 0, c > 4 ? -2.0 : 0.0}); });
   EffectContext context = sheet.context();
@@ -205,7 +205,7 @@ TEST(NodeAirForces, EachNodeAndFaceFeelsItsOwnAir) {
 }
 
 TEST(Aerodynamics, ACrumpledPointHasNoFaceAndStaysFinite) {
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.particles.position.fill(0);
   sheet.wind = {{0, 0, -1}, 10.0};
   const VectorField<double> force = sheet.forces(Aerodynamics<double>({}));

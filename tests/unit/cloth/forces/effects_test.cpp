@@ -14,10 +14,10 @@ namespace {
 
 using test::area_share;
 using test::each_node;
+using test::EffectSheet;
 using test::get;
 using test::kBoth;
 using test::set;
-using test::Sheet;
 using test::tilt;
 using test::total;
 
@@ -25,7 +25,7 @@ using test::total;
 
 TEST(Gravity, IsMassTimesAccelerationOnEveryNode) {
   for (Discretization d : kBoth) {
-    const Sheet sheet(d);
+    const EffectSheet sheet(d);
     const VectorField<double> force = sheet.forces(Gravity<double>({{0.5, -9.81, 2.0}}));
     each_node(force.grid(), [&](int r, int c) {
       EXPECT_LT((get(force, r, c) - sheet.particles.mass.at(r, c) * Vec3(0.5, -9.81, 2.0)).norm(), 1e-15);
@@ -36,7 +36,7 @@ TEST(Gravity, IsMassTimesAccelerationOnEveryNode) {
 
 TEST(Gravity, AHeldNodeKeepsItsWeight) {
   // A pin's inverse mass is 0, its mass is not: Eq. 9 counts every particle. (Nothing moves it all the same.)
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.particles.inverse_mass.at(0, 0) = 0;
   EXPECT_NEAR(get(sheet.forces(Gravity<double>({})), 0, 0).y(), 0.2 / 45 * -9.81, 1e-15);
 }
@@ -51,7 +51,7 @@ TEST(Gravity, OfASceneIsTheSumOfItsGravityEffects) {
 // --- Eq. 3 ---
 
 TEST(Damping, IsMinusKTimesVelocityPerParticleForThePaper) {
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.cloth.material.damping = 20;  // Table 1
   set(sheet.particles.velocity, 2, 3, {1, -2, 0.5});
   const VectorField<double> force = sheet.forces(Damping<double>({}));
@@ -61,7 +61,7 @@ TEST(Damping, IsMinusKTimesVelocityPerParticleForThePaper) {
 
 TEST(Damping, IsPerAreaForTheContinuum) {
   // 3 N s/m3 on cells of 1/16 m2; the whole sheet of 2 m2 at 1.5 m/s feels 3 * 2 * 1.5 = 9 N.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.cloth.material.damping = 3;
   each_node(sheet.particles.grid(), [&](int r, int c) { set(sheet.particles.velocity, r, c, {0, 0, 1.5}); });
   const VectorField<double> force = sheet.forces(Damping<double>({}));
@@ -73,7 +73,7 @@ TEST(Damping, IsPerAreaForTheContinuum) {
 
 TEST(Damping, RateIsKOverMass) {
   // Paper: k / (M/n) = 20 * 45 / 0.2. Continuum: per area over density, 3 / 0.1.
-  Sheet paper(Discretization::paper), continuum(Discretization::continuum);
+  EffectSheet paper(Discretization::paper), continuum(Discretization::continuum);
   paper.cloth.material.damping = 20;
   continuum.cloth.material.damping = 3;
   EXPECT_NEAR(Damping<double>({}).max_damping_rate(paper.particles, paper.context()), 4500, 1e-8);
@@ -84,7 +84,7 @@ TEST(Damping, RateIsKOverMass) {
 
 TEST(PaperWind, IsLambdaTimesTheWindsDirectionOnEveryParticle) {
   // Table 1: lambda = 1; at 1 m/s the force is Eq. 4 as printed, 1 N on each particle.
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.wind = {Vec3(3, 0, -4) / 5, 1.0};
   const VectorField<double> force = sheet.forces(PaperWind<double>({1.0, false}));
   each_node(force.grid(),
@@ -92,7 +92,7 @@ TEST(PaperWind, IsLambdaTimesTheWindsDirectionOnEveryParticle) {
 }
 
 TEST(PaperWind, GrowsLinearlyWithSpeedAndFactor) {
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.wind = {{1, 0, 0}, 2.5};
   EXPECT_NEAR(get(sheet.forces(PaperWind<double>({0.2, false})), 1, 1).x(), 0.5, 1e-15);
   sheet.wind.speed = 0;
@@ -101,7 +101,7 @@ TEST(PaperWind, GrowsLinearlyWithSpeedAndFactor) {
 
 TEST(PaperWind, IsPerAreaForTheContinuum) {
   // 0.5 N/m2 at 3 m/s on 2 m2: 3 N in all, by the area each node represents.
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   sheet.wind = {{0, 0, 1}, 3.0};
   const VectorField<double> force = sheet.forces(PaperWind<double>({0.5, false}));
   each_node(force.grid(), [&](int r, int c) {
@@ -114,7 +114,7 @@ TEST(PaperWind, AlongTheClothsNormalPointsDownwind) {
   // The other reading of "unit normal vector": a sheet tilted by 60 degrees is pushed along its own normal
   // with the same lambda, to the side the wind goes, whichever way the wind comes.
   for (double direction : {1.0, -1.0}) {
-    Sheet sheet(Discretization::paper);
+    EffectSheet sheet(Discretization::paper);
     tilt(sheet.particles, std::numbers::pi / 3);
     sheet.wind = {{0, 0, direction}, 1.0};
     const VectorField<double> force = sheet.forces(PaperWind<double>({2.0, true}));
@@ -124,7 +124,7 @@ TEST(PaperWind, AlongTheClothsNormalPointsDownwind) {
 }
 
 TEST(PaperWind, AlongTheNormalIsPerAreaForTheContinuum) {
-  Sheet sheet(Discretization::continuum);
+  EffectSheet sheet(Discretization::continuum);
   tilt(sheet.particles, std::numbers::pi / 3);
   sheet.wind = {{0, 0, -1}, 3.0};
   // lambda * speed * area = 0.5 * 3 * 2 = 3 N along (0, sin60, -cos60).
@@ -134,7 +134,7 @@ TEST(PaperWind, AlongTheNormalIsPerAreaForTheContinuum) {
 }
 
 TEST(PaperWind, ACrumpledPointHasNoNormalAndStaysFinite) {
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.particles.position.fill(0);
   sheet.wind = {{0, 0, -1}, 1.0};
   const VectorField<double> force = sheet.forces(PaperWind<double>({1.0, true}));
@@ -155,14 +155,14 @@ TEST(Effects, OnlyThoseListedAreMade) {
 }
 
 TEST(Effects, ForcesWithoutVelocityHaveNoDampingRate) {
-  const Sheet sheet(Discretization::paper);
+  const EffectSheet sheet(Discretization::paper);
   for (const auto& effect : make_effects<double>({GravityEffect{}, PaperWindEffect{}})) {
     EXPECT_EQ(effect->max_damping_rate(sheet.particles, sheet.context()), 0.0) << effect->name();
   }
 }
 
 TEST(Equation5, TheResultantIsTheSumOfElasticGravityResistanceAndWind) {
-  Sheet sheet(Discretization::paper);
+  EffectSheet sheet(Discretization::paper);
   sheet.cloth.material.damping = 2;
   sheet.wind = {{0, 0, -1}, 1.5};
   test::randomise(sheet.particles.position, -1, 1, 1);
@@ -172,7 +172,8 @@ TEST(Equation5, TheResultantIsTheSumOfElasticGravityResistanceAndWind) {
   VectorField<double> elastic(sheet.particles.grid()), sum(sheet.particles.grid());
   springs.add_forces(sheet.particles.position, elastic);
   sum.fill(123.0);  // whatever was there is overwritten
-  Forces<double>{&springs, &effects, sheet.context()}.sum(sheet.particles, sum);
+  const Sheet<double> resisting(springs);
+  Forces<double>{&resisting, &effects, sheet.context()}.sum(sheet.particles, sum);
   each_node(sum.grid(), [&](int r, int c) {
     const Vec3 gravity = 0.2 / 45 * Vec3(0, -9.81, 0);
     const Vec3 resist = -2 * sheet.particles.velocity_at(r, c);

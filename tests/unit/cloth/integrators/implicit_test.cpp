@@ -162,7 +162,7 @@ TEST(ImplicitSlow, SurvivesWhatItCannotSolve) {
         test::randomise(rig.particles.position, -1, 1, 5);
       }
       const auto energy = [&] {
-        return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position) +
+        return kinetic_energy(rig.particles) + rig.springs().energy(rig.particles.position) +
                gravitational_energy(rig.particles, standard_gravity());
       };
       const double before = energy();
@@ -190,7 +190,7 @@ TEST(Implicit, WhatTurnsFastGainsNoEnergy) {
     Rig<double> rig = test::sheet_rig<double>(17, 17, stepping, {}, material);
     spin(180, rig.particles);
     const auto energy = [&] {
-      return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
+      return kinetic_energy(rig.particles) + rig.springs().energy(rig.particles.position);
     };
     const double before = energy();
     for (int step = 0; step < 30; ++step) {
@@ -219,7 +219,7 @@ TEST(Implicit, WildMotionGainsNoEnergy) {
           set(rig.particles.velocity, r, c, turning + get(noise.velocity, r, c));
         });
         const auto energy = [&] {
-          return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
+          return kinetic_energy(rig.particles) + rig.springs().energy(rig.particles.position);
         };
         const double before = energy();
         for (int step = 0; step < 20; ++step) {

@@ -218,7 +218,7 @@ struct CrumpledSheet {
       test::set(rig.particles.position, r, c, rig.particles.position_at(r, c) + test::get(off, r, c));
     });
     const auto energy = [&] {
-      return kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position);
+      return kinetic_energy(rig.particles) + rig.springs().energy(rig.particles.position);
     };
     energy_before = energy();
     first_substeps = last_substeps = rig.advance(0, kFrame).substeps;

@@ -54,7 +54,7 @@ TEST(XpbdSweep, IsThatOfAPlainLoopOverColouredSprings) {
     Rig<double> rig = hung_rig<double>(rows, cols, XpbdDescription{1}, {});
     test::randomise(rig.particles.position, -1, 1, 5);
     Particles<double> plain = rig.particles;
-    const auto& families = rig.springs.families();
+    const auto& families = rig.springs().families();
     for (auto family = families.rbegin(); family != families.rend(); ++family) {
       for (int colour : {0, 1}) {
         for (const ListedSpring& spring : test::list_springs({*family}, plain.grid())) {

@@ -49,8 +49,9 @@ TEST(Settle, TakesOutWhatAMergePutsIntoTheSpringsAcrossAFold) {
   Merged merged;
   EXPECT_NEAR(merged.compression(), 1 - std::cos(std::asin(0.0625 / 0.4)), 1e-12);
   const double before = merged.springs.energy(merged.sheet.position);
+  const Sheet<double> resisting(merged.springs);
   settle<double>(merged.sheet, Unsettled::by_level,
-                 {.springs = &merged.springs, .context = {.cloth = &merged.cloth}}, nullptr, {}, 1.0 / 60);
+                 {.sheet = &resisting, .context = {.cloth = &merged.cloth}}, nullptr, {}, 1.0 / 60);
   EXPECT_LT(merged.compression(), 0.1 * (1 - std::cos(std::asin(0.0625 / 0.4))));
   EXPECT_LT(merged.springs.energy(merged.sheet.position), 0.1 * before);
   each_node(merged.sheet.grid(),
@@ -95,8 +96,8 @@ TEST(Settle, LeavesAFlatSheetWhereItIs) {
   test::share_mass(sheet, 0.4, Discretization::continuum);
   const Particles<double> before = sheet;
   const ClothDescription cloth;
-  const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
-  settle<double>(sheet, Unsettled::by_level, {.springs = &springs, .context = {.cloth = &cloth}}, nullptr, {},
+  const Sheet<double> resisting(Springs<double>(cloth.material, cloth.discretization, kSize, sheet.grid()));
+  settle<double>(sheet, Unsettled::by_level, {.sheet = &resisting, .context = {.cloth = &cloth}}, nullptr, {},
                  1.0 / 60);
   each_node(sheet.grid(), [&](int r, int c) {
     EXPECT_LT((sheet.position_at(r, c) - before.position_at(r, c)).norm(), 1e-12);
@@ -108,7 +109,7 @@ TEST(Settle, LetsNodesOutOfABallPutOntoThemWithoutMotion) {
   test::share_mass(sheet, 0.4, Discretization::continuum);
   each_node(sheet.grid(), [&](int r, int c) { set(sheet.velocity, r, c, {1, 2, 3}); });
   const ClothDescription cloth;
-  const Springs<double> springs(cloth.material, cloth.discretization, kSize, sheet.grid());
+  const Sheet<double> resisting(Springs<double>(cloth.material, cloth.discretization, kSize, sheet.grid()));
   Contact<double> contact(sheet.grid());
   // Half of the ball is above the sheet's middle.
   Solid ball{.id = 1, .shape = Sphere{0.3}};
@@ -116,7 +117,7 @@ TEST(Settle, LetsNodesOutOfABallPutOntoThemWithoutMotion) {
   EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));  // it was there before
   ball.just_put = true;
   EXPECT_TRUE(is_put_onto(sheet, contact, {ball}));
-  settle<double>(sheet, Unsettled::by_solid, {.springs = &springs, .context = {.cloth = &cloth}}, &contact,
+  settle<double>(sheet, Unsettled::by_solid, {.sheet = &resisting, .context = {.cloth = &cloth}}, &contact,
                  {ball}, 1.0 / 60);
   EXPECT_FALSE(is_put_onto(sheet, contact, {ball}));
   each_node(sheet.grid(), [&](int r, int c) {

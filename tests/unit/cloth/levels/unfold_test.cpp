@@ -15,12 +15,12 @@ using test::set;
 
 constexpr int kLevel = 5, kNodes = 33;
 
-struct Sheet {
+struct FoldedSheet {
   ClothDescription cloth;
   Particles<double> particles;
   Springs<double> springs;
 
-  Sheet()
+  FoldedSheet()
       : particles(test::flat_sheet<double>(kNodes, kNodes, cloth.size)),
         springs(cloth.material, cloth.discretization, cloth.size, particles.grid()) {
     test::share_mass(particles, 0.4, Discretization::continuum);
@@ -44,41 +44,41 @@ struct Sheet {
 };
 
 TEST(Unfold, ASheetThatIsBentGatheredOrPulledIsNotTangled) {
-  Sheet flat, rolled, gathered, pulled;
+  FoldedSheet flat, rolled, gathered, pulled;
   rolled.place(
       [](const Vec3& p) { return Vec3(0.2 * std::sin(p.x() / 0.2), p.y(), 0.2 * std::cos(p.x() / 0.2)); });
   gathered.place([](const Vec3& p) { return Vec3(p.x() / 2, p.y(), 0); });  // mean strain 0.25
   pulled.place([](const Vec3& p) -> Vec3 { return 1.3 * p; });              // 0.3
-  for (const Sheet* sheet : {&flat, &rolled, &gathered, &pulled}) EXPECT_FALSE(sheet->tangled());
+  for (const FoldedSheet* sheet : {&flat, &rolled, &gathered, &pulled}) EXPECT_FALSE(sheet->tangled());
 }
 
 TEST(Unfold, NodesOnALineOrAPointOrAnywhereAre) {
-  Sheet line, point, anywhere;
+  FoldedSheet line, point, anywhere;
   line.place([](const Vec3& p) { return Vec3(p.x(), 0, 0); });  // half of the springs have no length: 0.5
   point.place([](const Vec3&) { return Vec3(0, 0, 0); });       // 1
   test::randomise(anywhere.particles.position, -1, 1, 1);
-  for (const Sheet* sheet : {&line, &point, &anywhere}) EXPECT_TRUE(sheet->tangled());
+  for (const FoldedSheet* sheet : {&line, &point, &anywhere}) EXPECT_TRUE(sheet->tangled());
 }
 
 TEST(Unfold, WhereverTheNodesAreTheSheetIsHardlyStrainedAfterwards) {
   // The hard cases' limit, 5 %, without the three seconds that they leave.
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Sheet sheet;
+    FoldedSheet sheet;
     test::randomise(sheet.particles.position, -1, 1, seed);
     sheet.unfold();
     EXPECT_LT(sheet.strain(), 0.05) << seed;
   }
-  Sheet line, point;
+  FoldedSheet line, point;
   line.place([](const Vec3& p) { return Vec3(p.x(), 0, 0); });
   point.place([](const Vec3&) { return Vec3(0, 0, 0); });
-  for (Sheet* sheet : {&line, &point}) {
+  for (FoldedSheet* sheet : {&line, &point}) {
     sheet->unfold();
     EXPECT_LT(sheet->strain(), 0.05);
   }
 }
 
 TEST(Unfold, AFreeSheetsCentreOfMassAndItsVelocitiesStay) {
-  Sheet sheet;
+  FoldedSheet sheet;
   test::randomise(sheet.particles.position, -1, 1, 1);
   test::randomise(sheet.particles.velocity, -1, 1, 2);
   const Vec3 before = sheet.centre_of_mass();
@@ -90,7 +90,7 @@ TEST(Unfold, AFreeSheetsCentreOfMassAndItsVelocitiesStay) {
 
 TEST(Unfold, HeldNodesStayWhereTheyAre) {
   // One of them is a node of the finest level alone.
-  Sheet sheet;
+  FoldedSheet sheet;
   test::randomise(sheet.particles.position, -1, 1, 1);
   const int held[][2] = {{0, 0}, {0, kNodes - 1}, {17, 5}};
   for (const auto& [r, c] : held) sheet.particles.inverse_mass.at(r, c) = 0;

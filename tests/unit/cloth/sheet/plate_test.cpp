@@ -228,7 +228,7 @@ TEST(PlateSweep, IsThatOfAPlainLoopOverColouredStencils) {
       return first.row == second.row ? (second.col - 1) % 4 : 4 + (second.row - 1) % 3;
     };
     for (int colour = 0; colour < 11; ++colour) {
-      rig.plate->for_each_stencil([&](double stiffness, const auto& nodes) {
+      rig.sheet.plate()->for_each_stencil([&](double stiffness, const auto& nodes) {
         if (colour_of(nodes) != colour) return;
         Vec3 constraint = Vec3::Zero();
         double weight = 1 / (stiffness * h * h);
@@ -257,13 +257,13 @@ TEST(Plate, SymplecticEulersOwnSubstepsAreStable) {
   Rig<double> rig =
       test::sheet_rig<double>(17, 17, SymplecticEulerDescription{}, {PlateBendingEffect{}}, material);
   rig.particles.position.z.at(8, 8) = 1e-3;
-  const double before = rig.plate->energy(rig.particles.position);
+  const double before = rig.sheet.plate()->energy(rig.particles.position);
   const AdvanceReport report = rig.advance(0, kFrame);
   EXPECT_EQ(report.substeps,
-            stable_substeps(rig.plate->max_squared_frequency(rig.particles.mass), 0, kFrame, 0.9));
+            stable_substeps(rig.sheet.plate()->max_squared_frequency(rig.particles.mass), 0, kFrame, 0.9));
   for (int n = 1; n < 60; ++n) rig.advance(n * kFrame, kFrame);
   // The modified energy is kept: up to 19 times the true one at 0.9 of the limit (criteria.h).
-  EXPECT_LT(rig.plate->energy(rig.particles.position), 19 * before);
+  EXPECT_LT(rig.sheet.plate()->energy(rig.particles.position), 19 * before);
 }
 
 TEST(Plate, AnyRigidityIsStableWithOneStepAFrame) {

@@ -388,7 +388,7 @@ TYPED_TEST(SheetForces, OfRestLengthZeroAreStepped) {
         EXPECT_TRUE(rig.particles.velocity_at(r, c).allFinite())
             << stepping.index() << ": " << r << ", " << c;
       });
-      EXPECT_TRUE(std::isfinite(rig.springs.energy(rig.particles.position))) << stepping.index();
+      EXPECT_TRUE(std::isfinite(rig.springs().energy(rig.particles.position))) << stepping.index();
     }
   }
 }

@@ -174,8 +174,8 @@ TEST(DampedOscillator, IsBoundedForAnyTime) {
        {IntegratorDescription{BackwardEulerDescription{}}, IntegratorDescription{Bdf2Description{}},
         IntegratorDescription{XpbdDescription{10}}}) {
     Rig<double> rig = damped_oscillator(4e7, stepping);
-    rig.springs =
-        Springs<double>(rig.cloth.material, Discretization::paper, {1, 1}, rig.particles.grid(), 10);
+    rig.sheet = Sheet<double>(
+        Springs<double>(rig.cloth.material, Discretization::paper, {1, 1}, rig.particles.grid(), 10));
     for (int r : {0, 1}) rig.particles.position.x.at(r, 1) += 0.1;
     for (int n = 0; n < 60; ++n) rig.advance(n * kFrame, kFrame);
     EXPECT_NEAR(rig.particles.position.x.at(0, 1) - 0.5, 0.1 * std::exp(-0.1), 1e-3);
@@ -190,7 +190,7 @@ TEST(StrainDamping, SymplecticEulersOwnSubstepsAreStable) {
   test::randomise(rig.particles.velocity, -0.01, 0.01, 8);
   const double before = kinetic_energy(rig.particles);
   const AdvanceReport report = rig.advance(0, kFrame);
-  const double w2 = rig.springs.max_squared_frequency(rig.particles.mass);
+  const double w2 = rig.springs().max_squared_frequency(rig.particles.mass);
   EXPECT_EQ(report.substeps, stable_substeps(w2, 0.01 * w2, kFrame, 0.9));
   EXPECT_GT(report.substeps, 4 * stable_substeps(w2, 0, kFrame, 0.9));
   for (int n = 1; n < 60; ++n) rig.advance(n * kFrame, kFrame);

@@ -301,17 +301,17 @@ TEST(StrainLimit, SymplecticEulersSubstepsKnowOfTheStifferSprings) {
   // substep adds 2 * 0.25 w^2 h^2 to what must stay below 4.
   Rig<double> rig = test::sheet_rig<double>(9, 9, SymplecticEulerDescription{}, {StrainLimitEffect{}});
   const Rig<double> plain = test::sheet_rig<double>(9, 9, SymplecticEulerDescription{});
-  const double w2 = rig.springs.max_squared_frequency(rig.particles.mass);
-  EXPECT_NEAR(w2, 20 * plain.springs.max_squared_frequency(plain.particles.mass), 0.01 * w2);
+  const double w2 = rig.springs().max_squared_frequency(rig.particles.mass);
+  EXPECT_NEAR(w2, 20 * plain.springs().max_squared_frequency(plain.particles.mass), 0.01 * w2);
   EXPECT_EQ(rig.advance(0, kFrame).substeps, stable_substeps(1.5 * w2, 0, kFrame, 0.9));
   // Let go at 1.1 times its size, half of that beyond its warp's limit, it rings without gaining energy.
   each_node(rig.particles.grid(), [&](int r, int c) {
     set(rig.particles.position, r, c, 1.1 * get(rig.particles.position, r, c));
   });
-  const double before = rig.springs.energy(rig.particles.position);
+  const double before = rig.springs().energy(rig.particles.position);
   for (int n = 0; n < 120; ++n) {
     rig.advance(n * kFrame, kFrame);
-    ASSERT_LT(kinetic_energy(rig.particles) + rig.springs.energy(rig.particles.position), before) << n;
+    ASSERT_LT(kinetic_energy(rig.particles) + rig.springs().energy(rig.particles.position), before) << n;
   }
 }
 
