@@ -1,14 +1,11 @@
 """The AsyncAPI document of all messages (schema/asyncapi.json)."""
-import json
-
 from .schema import pretty
-from .table import BY, OPERATIONS, PROTOCOL
+from .table import BY, OPERATIONS, SPEC
 
 
 def asyncapi():
-    """Server messages are those of server.schema.json, in its order."""
-    server = json.loads((PROTOCOL / "schema" / "server.schema.json").read_text())
-    told = [reference["$ref"].split("/")[-1] for reference in server["oneOf"]]
+    told = {message["op"]: message["summary"] for message in SPEC["server"]["messages"]}
+    told.update({event["name"]: event["summary"] for event in SPEC["server"]["events"]})
     channel = {"$ref": "#/channels/scene"}
 
     def key(name):
@@ -23,7 +20,7 @@ def asyncapi():
                             "schema": {"$ref": f"./{file}.schema.json#/$defs/{name}"}}}
 
     messages = {key(each["op"]): message(each["op"], each["summary"], "client") for each in OPERATIONS}
-    messages.update({key(name): message(name, server["$defs"][name]["description"], "server") for name in told})
+    messages.update({key(name): message(name, summary, "server") for name, summary in told.items()})
     messages["frame"] = {"name": "frame", "title": "frame",
                          "summary": "The newest state of one step as binary records: PROTOCOL.md section 4.",
                          "contentType": "application/octet-stream", "payload": {"type": "string", "format": "binary"}}

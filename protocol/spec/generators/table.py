@@ -1,4 +1,4 @@
-"""What operations.json, the one table of what a client may ask, says: in the form in which all that is generated needs it."""
+"""What operations.json, the one table of what a client may ask and what the server says, has: in the form in which all that is generated needs it."""
 import json
 import pathlib
 
