@@ -55,27 +55,31 @@ json cloths_json(const Simulation<float>& simulation, const std::vector<scene::L
 
 json quaternion_json(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
+json length_json(double length) { return length; }
+json length_json(const Vec3& lengths) { return vector_json(lengths); }
+
+/// Adds what a shape is.
+void describe(const PlaneDescription& plane, json& message) {
+  message["shape"] = plane.kName;
+  message["normal"] = vector_json(plane.normal);
+}
+void describe(const MeshDescription& mesh, json& message) {
+  message["shape"] = mesh.convex ? mesh.kConvexName : mesh.kName;
+  message["vertices"] = mesh.surface->list().vertices.size();
+  message["triangles"] = mesh.surface->list().triangles.size();
+  message["quaternion"] = quaternion_json(mesh.orientation);
+}
+template <class Description>
+void describe(const Description& solid, json& message) {
+  message["shape"] = solid.kName;
+  std::apply([&](const auto&... each) { ((message[each.name] = length_json(solid.*each.member)), ...); },
+             Description::lengths());
+  message["quaternion"] = quaternion_json(solid.orientation);
+}
+
 json obstacle_json(const ObstacleDescription& obstacle, double friction) {
   json message{{"position", vector_json(obstacle.position)}, {"friction", friction}};
-  if (const auto* plane = std::get_if<PlaneDescription>(&obstacle.shape)) {
-    message["shape"] = plane->kName;
-    message["normal"] = vector_json(plane->normal);
-  } else if (const auto* box = std::get_if<BoxDescription>(&obstacle.shape)) {
-    message["shape"] = box->kName;
-    message["size"] = vector_json(box->size);
-    message["quaternion"] = quaternion_json(box->orientation);
-  } else if (const auto* capsule = std::get_if<CapsuleDescription>(&obstacle.shape)) {
-    message["shape"] = capsule->kName;
-    message["radius"] = capsule->radius;
-    message["length"] = capsule->length;
-    message["quaternion"] = quaternion_json(capsule->orientation);
-  } else {
-    const auto& mesh = std::get<MeshDescription>(obstacle.shape);
-    message["shape"] = mesh.convex ? mesh.kConvexName : mesh.kName;
-    message["vertices"] = mesh.surface->list().vertices.size();
-    message["triangles"] = mesh.surface->list().triangles.size();
-    message["quaternion"] = quaternion_json(mesh.orientation);
-  }
+  std::visit([&](const auto& shape) { describe(shape, message); }, obstacle.shape);
   if (obstacle.body) message["mass"] = obstacle.body->mass;
   return message;
 }

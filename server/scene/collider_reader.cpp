@@ -77,36 +77,35 @@ BallDescription read_ball(Object& object, MotionFiles& motions) {
   return ball;
 }
 
-ObstacleDescription read_plane(Object& object) {
+void read_length(Object& object, const char* name, double& length) {
+  object.require(name, kLength);
+  object.number(name, length, kLength);
+}
+void read_length(Object& object, const char* name, Vec3& lengths) {
+  object.require(name, "an array of 3 numbers");
+  object.vector(name, lengths, kLength);
+}
+
+/// By its lengths and its turn.
+template <class Description>
+ObstacleDescription read_solid(Object& object) {
+  ObstacleDescription obstacle;
+  Description solid;
+  std::apply([&](const auto&... each) { (read_length(object, each.name, solid.*each.member), ...); },
+             Description::lengths());
+  solid.orientation = read_turn(object, Quaternion::Identity());
+  obstacle.shape = solid;
+  read_pose_path(object, &solid.orientation, obstacle);
+  return obstacle;
+}
+
+template <>
+ObstacleDescription read_solid<PlaneDescription>(Object& object) {
   ObstacleDescription obstacle;
   PlaneDescription plane;
   object.direction("normal", plane.normal, kComponent);
   obstacle.shape = plane;
   read_pose_path(object, nullptr, obstacle);
-  return obstacle;
-}
-
-ObstacleDescription read_box(Object& object) {
-  ObstacleDescription obstacle;
-  BoxDescription box;
-  object.require("size", "an array of 3 numbers");
-  object.vector("size", box.size, kLength);
-  box.orientation = read_turn(object, Quaternion::Identity());
-  obstacle.shape = box;
-  read_pose_path(object, &box.orientation, obstacle);
-  return obstacle;
-}
-
-ObstacleDescription read_capsule(Object& object) {
-  ObstacleDescription obstacle;
-  CapsuleDescription capsule;
-  object.require("radius", kLength);
-  object.number("radius", capsule.radius, kLength);
-  object.require("length", kLength);
-  object.number("length", capsule.length, kLength);
-  capsule.orientation = read_turn(object, Quaternion::Identity());
-  obstacle.shape = capsule;
-  read_pose_path(object, &capsule.orientation, obstacle);
   return obstacle;
 }
 
@@ -170,35 +169,61 @@ void centre(MeshDescription& mesh, ObstacleDescription& obstacle) {
   for (PoseWaypoint& point : obstacle.path) point.pose.position += point.pose.orientation * centre;
 }
 
+/// What "type" may be: a ball, each shape but meshes, and these in two ways.
+template <std::size_t... kIndex>
+std::vector<const char*> collider_types(std::index_sequence<kIndex...>) {
+  return {"ball", std::variant_alternative_t<kIndex, ObstacleShape>::kName..., MeshDescription::kConvexName,
+          MeshDescription::kName};
+}
+
+/// "ball", "plane" or "box"
+std::string one_of(const std::vector<const char*>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 < names.size() ? ", " : " or ";
+    text += '"' + std::string(names[i]) + '"';
+  }
+  return text;
+}
+
+/// Of the shape at this place in ObstacleShape.
+template <std::size_t... kIndex>
+ObstacleDescription read_solid_at(std::size_t place, Object& object, std::index_sequence<kIndex...>) {
+  using Read = ObstacleDescription (*)(Object&);
+  constexpr Read kReaders[] = {&read_solid<std::variant_alternative_t<kIndex, ObstacleShape>>...};
+  return kReaders[place](object);
+}
+
 }  // namespace
 
 void read_collider(const json& value, const std::string& path, Report& report, const SceneFolder& folder,
                    MotionFiles& motions, SimulationDescription& simulation) {
   Object object(value, path, report);
-  object.require("type", "\"ball\", \"plane\", \"box\", \"capsule\", \"convex\" or \"mesh\"");
-  const int type = object.choice(
-      "type", {"ball", PlaneDescription::kName, BoxDescription::kName, CapsuleDescription::kName,
-               MeshDescription::kConvexName, MeshDescription::kName});
-  if (type < 0) {
+  constexpr std::size_t kSolids = std::variant_size_v<ObstacleShape> - 1;  // and meshes
+  const auto solids = std::make_index_sequence<kSolids>();
+  const std::vector<const char*> types = collider_types(solids);
+  object.require("type", one_of(types));
+  const int chosen = object.choice("type", types);
+  if (chosen < 0) {
     object.ignore_rest();
     return;
   }
-  if (type == 0) {
+  if (chosen == 0) {
     simulation.balls.push_back(read_ball(object, motions));
     return;
   }
-  ObstacleDescription obstacle = type == 1   ? read_plane(object)
-                                 : type == 2 ? read_box(object)
-                                 : type == 3 ? read_capsule(object)
-                                             : read_surface(object, type == 4, folder, simulation);
-  if (type != 1 && is_carried(object)) {
+  const std::size_t place = static_cast<std::size_t>(chosen) - 1;
+  ObstacleDescription obstacle = place < kSolids ? read_solid_at(place, object, solids)
+                                                 : read_surface(object, place == kSolids, folder, simulation);
+  const bool endless = std::holds_alternative<PlaneDescription>(obstacle.shape);
+  if (!endless && is_carried(object)) {
     carry(object, motions, obstacle);
   } else {
     read_position(object, obstacle.position);
   }
   if (!obstacle.path.empty()) obstacle.position = obstacle.path.front().pose.position;
   object.number("friction", obstacle.friction, kFriction);
-  if (type != 1) read_body(object, obstacle);
+  if (!endless) read_body(object, obstacle);
   auto* mesh = std::get_if<MeshDescription>(&obstacle.shape);
   if (obstacle.body && mesh != nullptr && mesh->surface != nullptr) {
     try {

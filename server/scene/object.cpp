@@ -188,7 +188,7 @@ bool Object::string(const char* key, std::string& target, std::size_t max_length
   return value && read_string(*value, path(key), max_length, target, report_);
 }
 
-int Object::choice(const char* key, std::initializer_list<const char*> names) {
+int Object::choice(const char* key, const std::vector<const char*>& names) {
   const json* value = find(key);
   if (!value) return -1;
   if (value->is_string()) {

@@ -110,7 +110,7 @@ class Object {
     return true;
   }
   /// Index of the field's string among `names`, or -1.
-  int choice(const char* key, std::initializer_list<const char*> names);
+  int choice(const char* key, const std::vector<const char*>& names);
   /// Calls read(value, path) for each element of an array of `min` to `max` elements.
   template <class Read>
   void each(const char* key, std::size_t min, std::size_t max, Read read) {

@@ -81,26 +81,23 @@ void append_triangles(BodyMesh& mesh, const TriangleList& list) {
   }
 }
 
+void append(BodyMesh& mesh, const Sphere& sphere) { append_round(mesh, 0, sphere.radius); }
+void append(BodyMesh& mesh, const Box& box) { append_box(mesh, box.half); }
+void append(BodyMesh& mesh, const Capsule& capsule) { append_round(mesh, capsule.half, capsule.radius); }
+void append(BodyMesh& mesh, const Mesh& solid) { append_triangles(mesh, solid.surface->list()); }
+void append(BodyMesh& mesh, const HalfSpace&) {
+  constexpr double kHalf = kPlaneHalf;
+  append_quad(
+      mesh, {Vec3(-kHalf, 0, kHalf), Vec3(kHalf, 0, kHalf), Vec3(kHalf, 0, -kHalf), Vec3(-kHalf, 0, -kHalf)},
+      Vec3(0, 1, 0));
+}
+
 }  // namespace
 
 BodyMesh body_mesh(std::string name, const Shape& shape) {
   BodyMesh mesh;
   mesh.name = std::move(name);
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    append_round(mesh, 0, sphere->radius);
-  } else if (const auto* box = std::get_if<Box>(&shape)) {
-    append_box(mesh, box->half);
-  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    append_round(mesh, capsule->half, capsule->radius);
-  } else if (const auto* surface = std::get_if<Mesh>(&shape)) {
-    append_triangles(mesh, surface->surface->list());
-  } else {
-    constexpr double kHalf = kPlaneHalf;
-    append_quad(
-        mesh,
-        {Vec3(-kHalf, 0, kHalf), Vec3(kHalf, 0, kHalf), Vec3(kHalf, 0, -kHalf), Vec3(-kHalf, 0, -kHalf)},
-        Vec3(0, 1, 0));
-  }
+  std::visit([&](const auto& each) { append(mesh, each); }, shape);
   return mesh;
 }
 

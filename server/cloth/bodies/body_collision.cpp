@@ -356,17 +356,20 @@ struct BodyCollision::Impl {
     }
   }
 
-  /// As FCL has the shape; no ball and no half-space.
+  /// As FCL has the shape; none of a ball and of a half-space, which are looked at otherwise.
   Geometry geometry(const Solid& solid) {
-    if (const auto* box = std::get_if<Box>(&solid.shape)) {
-      return std::make_shared<fcl::Boxd>(Vec3(2 * box->half));
-    }
-    if (const auto* capsule = std::get_if<Capsule>(&solid.shape)) {
-      return std::make_shared<fcl::Capsuled>(capsule->radius, 2 * capsule->half);
-    }
-    const TriangleMesh* surface = surface_of(solid);
-    Geometry& known = surfaces[surface];
-    if (!known) known = surface->list().convex ? convex_of(surface->list()) : hollow_of(surface->list());
+    return std::visit([&](const auto& shape) { return geometry_of(shape); }, solid.shape);
+  }
+  Geometry geometry_of(const Sphere&) const { return nullptr; }
+  Geometry geometry_of(const HalfSpace&) const { return nullptr; }
+  Geometry geometry_of(const Box& box) const { return std::make_shared<fcl::Boxd>(Vec3(2 * box.half)); }
+  Geometry geometry_of(const Capsule& capsule) const {
+    return std::make_shared<fcl::Capsuled>(capsule.radius, 2 * capsule.half);
+  }
+  Geometry geometry_of(const Mesh& mesh) {
+    const TriangleList& list = mesh.surface->list();
+    Geometry& known = surfaces[mesh.surface];
+    if (!known) known = list.convex ? convex_of(list) : hollow_of(list);
     return known;
   }
 

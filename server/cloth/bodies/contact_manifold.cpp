@@ -130,43 +130,6 @@ Points over_face_of(const Side& side, Vec3& outwards) {
 
 }  // namespace
 
-std::vector<Corner> corners_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return {{.radius = sphere->radius}};
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    return {{.place = {0, -capsule->half, 0}, .radius = capsule->radius},
-            {.place = {0, capsule->half, 0}, .radius = capsule->radius}};
-  }
-  std::vector<Corner> corners;
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    for (const double x : {-1, 1}) {
-      for (const double y : {-1, 1}) {
-        for (const double z : {-1, 1}) {
-          const Vec3 side(x, y, z);
-          corners.push_back({.place = box->half.cwiseProduct(side), .outwards = side.normalized()});
-        }
-      }
-    }
-  }
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-    const TriangleList& list = mesh->surface->list();
-    for (const Vec3& vertex : list.vertices) corners.push_back({.place = vertex});
-    for (const std::array<int, 3>& triangle : list.triangles) {
-      const auto vertex = [&](int i) {
-        return static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)]);
-      };
-      const Vec3 &p = list.vertices[vertex(0)], &q = list.vertices[vertex(1)], &r = list.vertices[vertex(2)];
-      for (int i = 0; i < 3; ++i) corners[vertex(i)].outwards += (q - p).cross(r - p);
-    }
-    for (Corner& corner : corners) corner.outwards.normalize();
-  }
-  return corners;
-}
-
-bool is_convex(const Shape& shape) {
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->surface->list().convex;
-  return !std::holds_alternative<HalfSpace>(shape);
-}
-
 Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& normal, const Vec3& deepest,
                      double margin) {
   const std::vector<Corner> of_a = placed_corners(a), of_b = placed_corners(b);

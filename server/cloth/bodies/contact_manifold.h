@@ -5,20 +5,6 @@
 
 namespace weft {
 
-/// A corner of a shape in its own frame, or the centre of a round one.
-struct Corner {
-  Vec3 place{0, 0, 0};     ///< m
-  double radius = 0;       ///< of what is round about it, m
-  Vec3 outwards{0, 0, 0};  ///< unit, of a sharp one
-};
-
-/// The shape's corners, of which it is the convex hull unless it is a mesh that is not convex. A half-space
-/// has none.
-std::vector<Corner> corners_of(const Shape& shape);
-
-/// Neither a half-space nor a mesh that is not known to be convex.
-bool is_convex(const Shape& shape);
-
 /// Of two convex shapes that overlap or nearly do: they touch along a normal at these points.
 struct Manifold {
   Vec3 normal{0, 1, 0};  ///< unit, from b to a

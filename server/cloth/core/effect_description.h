@@ -1,6 +1,6 @@
 #pragma once
 /// The effects a scene may name. Only those listed in a simulation are built and cost anything. Field names
-/// equal the names in scene files.
+/// equal the names in scene files. What one holds stands in its serialize, too (archive.h).
 #include <optional>
 #include <variant>
 
@@ -12,6 +12,10 @@ namespace weft {
 struct GravityEffect {
   Vec3 acceleration = standard_gravity();  ///< m/s2
   static constexpr const char* kName = "gravity";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(acceleration);
+  }
 };
 
 /// Eq. 3: F = -k v, with each cloth's own Material::damping.
@@ -26,6 +30,10 @@ struct PaperWindEffect {
   bool along_normal =
       false;  ///< true reads "unit normal vector" as the cloth's: N is the surface normal, turned downwind
   static constexpr const char* kName = "paper_wind";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(factor, along_normal);
+  }
 };
 
 /// Moving air on a face: F/A = 1/2 rho |w_n| w_n (C_D (n.e) e + C_L (n - (n.e) e)) with w = wind - velocity,
@@ -38,6 +46,10 @@ struct AerodynamicsEffect {
   std::optional<double> lift = {};  ///< C_L, dimensionless; default: as drag
   double lift_or_drag() const { return lift.value_or(drag); }
   static constexpr const char* kName = "aerodynamics";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(air_density, drag, lift);
+  }
 };
 
 /// Springs that resist the rate of their length too (Kelvin-Voigt): F = -tau k n (n . (v_i - v_j)) on end i.
@@ -46,6 +58,10 @@ struct AerodynamicsEffect {
 struct StrainDampingEffect {
   double time = 1e-3;  ///< tau, s; finite, >= 0. Explicit methods need substeps in proportion to it.
   static constexpr const char* kName = "strain_damping";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time);
+  }
 };
 
 /// Resistance to curvature, with each cloth's own Material::rigidity (sheet/plate.h).
@@ -66,6 +82,10 @@ struct ClothContactEffect {
   double friction = 0.3;     ///< Coulomb's coefficient between cloth and cloth, >= 0
   bool operator==(const ClothContactEffect&) const = default;
   static constexpr const char* kName = "cloth_contact";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(thickness, friction);
+  }
 };
 
 /// Air under a sheet that is held all round its rim, as under an air-supported roof or in a bouncy castle: a
@@ -81,6 +101,10 @@ struct InflationEffect {
   double fill_time = 1;
   bool operator==(const InflationEffect&) const = default;
   static constexpr const char* kName = "inflation";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(pressure, volume, fill_time);
+  }
 };
 
 /// Cloth tears where it is pulled too hard: a structural link breaks at the end of a step in which the sheet
@@ -89,6 +113,10 @@ struct TearingEffect {
   double warp = 1000;  ///< strength along u, N/m; finite, > 0
   double weft = 1000;  ///< along v, N/m
   static constexpr const char* kName = "tearing";
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(warp, weft);
+  }
 };
 
 using EffectDescription =

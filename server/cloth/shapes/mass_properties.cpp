@@ -4,38 +4,9 @@
 #include <stdexcept>
 
 namespace weft {
-namespace {
 
-/// From the mean of x x^T over the mass.
 Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second_moment) {
   return second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
-}
-
-/// A cylinder of length 2 h and two half balls of radius r, by their volumes, and Steiner's theorem for
-/// these, whose own centres are 3/8 r from the flat side.
-Eigen::Matrix3d inertia_of(const Capsule& capsule) {
-  const double h = capsule.half, r = capsule.radius;
-  const double cylinder = 2 * h, ball = 4 * r / 3;  // volumes / (pi r^2)
-  const double share = cylinder / (cylinder + ball);
-  const double along = share * r * r / 2 + (1 - share) * 2 * r * r / 5;
-  const double across =
-      share * (r * r / 4 + h * h / 3) + (1 - share) * (2 * r * r / 5 + h * h + 3 * h * r / 4);
-  return Vec3(across, along, across).asDiagonal();
-}
-
-}  // namespace
-
-MassProperties mass_properties(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    return {{0, 0, 0}, 0.4 * sphere->radius * sphere->radius * Eigen::Matrix3d::Identity()};
-  }
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    const Vec3 moment = box->half.cwiseAbs2() / 3;
-    return {{0, 0, 0}, inertia_of(Eigen::Matrix3d(moment.asDiagonal()))};
-  }
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return {{0, 0, 0}, inertia_of(*capsule)};
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mass_properties(mesh->surface->list());
-  throw std::invalid_argument("has no end, and so no mass");
 }
 
 MassProperties mass_properties(const TriangleList& surface) {

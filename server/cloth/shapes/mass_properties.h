@@ -10,6 +10,9 @@ struct MassProperties {
   Eigen::Matrix3d inertia;  ///< about that centre, along the shape's own axes, m2
 };
 
+/// Inertia per kg, m2, from the mean of x x^T over the mass, m2.
+Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second_moment);
+
 /// Sphere, box and capsule in closed form, a mesh as below. Throws std::invalid_argument of a half-space,
 /// which has no end, and as below.
 MassProperties mass_properties(const Shape& shape);

@@ -1,34 +1,13 @@
 #pragma once
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "cloth/core/vec3.h"
 
 namespace weft {
 
 class TriangleMesh;
-
-/// Centred at the origin of its own frame.
-struct Sphere {
-  double radius = 0;  ///< m
-};
-/// All below y = 0 of its own frame.
-struct HalfSpace {};
-/// Centred, edges along its own axes.
-struct Box {
-  Vec3 half{0, 0, 0};  ///< half the lengths of its edges, m
-};
-/// All within `radius` of the middle stretch of its own y axis; a limb.
-struct Capsule {
-  double half = 0;    ///< half the stretch's length, m
-  double radius = 0;  ///< m
-};
-/// Within a closed surface of triangles. It belongs to someone else, who keeps it: shapes are copied in hot
-/// loops.
-struct Mesh {
-  const TriangleMesh* surface = nullptr;
-};
-using Shape = std::variant<Sphere, HalfSpace, Box, Capsule, Mesh>;
 
 /// The point of a surface next to some point.
 struct Surface {
@@ -41,6 +20,95 @@ struct Hit {
   double fraction = 0;  ///< of the way
   Vec3 normal{0, 1, 0};
 };
+
+/// A corner of a shape in its own frame, or the centre of a round one.
+struct Corner {
+  Vec3 place{0, 0, 0};     ///< m
+  double radius = 0;       ///< of what is round about it, m
+  Vec3 outwards{0, 0, 0};  ///< unit, of a sharp one
+};
+
+struct MassProperties;
+
+// Each shape's members are in a file of its name, and say in its own frame what the functions below ask of
+// any shape: a new shape is one struct, its file and an alternative of Shape.
+
+/// Centred at the origin of its own frame.
+struct Sphere {
+  double radius = 0;  ///< m
+
+  Surface nearest(const Vec3& point) const;
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
+  double inner_radius() const;
+  double bore() const;
+  double outer_radius() const;
+  MassProperties mass_properties() const;
+  std::vector<Corner> corners() const;
+  bool is_convex() const;
+};
+/// All below y = 0 of its own frame.
+struct HalfSpace {
+  Surface nearest(const Vec3& point) const;
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
+  double inner_radius() const;
+  double bore() const;
+  double outer_radius() const;
+  MassProperties mass_properties() const;
+  std::vector<Corner> corners() const;
+  bool is_convex() const;
+};
+/// Centred, edges along its own axes.
+struct Box {
+  Vec3 half{0, 0, 0};  ///< half the lengths of its edges, m
+
+  Surface nearest(const Vec3& point) const;
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
+  double inner_radius() const;
+  double bore() const;
+  double outer_radius() const;
+  MassProperties mass_properties() const;
+  std::vector<Corner> corners() const;
+  bool is_convex() const;
+};
+/// All within `radius` of the middle stretch of its own y axis; a limb.
+struct Capsule {
+  double half = 0;    ///< half the stretch's length, m
+  double radius = 0;  ///< m
+
+  Surface nearest(const Vec3& point) const;
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
+  double inner_radius() const;
+  double bore() const;
+  double outer_radius() const;
+  MassProperties mass_properties() const;
+  std::vector<Corner> corners() const;
+  bool is_convex() const;
+};
+/// Within a closed surface of triangles. It belongs to someone else, who keeps it: shapes are copied in hot
+/// loops.
+struct Mesh {
+  const TriangleMesh* surface = nullptr;
+
+  Surface nearest(const Vec3& point) const;
+  std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
+  double way_out(const Vec3& origin, const Vec3& direction) const;
+  Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
+  double inner_radius() const;
+  double bore() const;
+  double outer_radius() const;
+  MassProperties mass_properties() const;
+  std::vector<Corner> corners() const;
+  bool is_convex() const;
+};
+using Shape = std::variant<Sphere, HalfSpace, Box, Capsule, Mesh>;
 
 /// A shape where it is at some time.
 struct PlacedShape {
@@ -69,5 +137,11 @@ double inner_radius(const Shape& shape);
 double bore(const Shape& shape);
 /// Of the smallest ball around its centre that holds it, m. Infinite for a half-space.
 double outer_radius(const Shape& shape);
+
+/// The shape's corners, of which it is the convex hull unless it is a mesh that is not convex. A half-space
+/// has none.
+std::vector<Corner> corners_of(const Shape& shape);
+/// Neither a half-space nor a mesh that is not known to be convex.
+bool is_convex(const Shape& shape);
 
 }  // namespace weft

@@ -7,25 +7,21 @@
 namespace weft {
 namespace {
 
+template <class Description>
+Quaternion turned(const Description& description) {
+  return description.orientation;
+}
+Quaternion turned(const PlaneDescription& plane) {
+  return Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane.normal);
+}
+
 Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
   Obstacle obstacle;
   obstacle.pose.position = description.position;
   Shape& shape = obstacle.solid.shape;
-  if (const auto* plane = std::get_if<PlaneDescription>(&description.shape)) {
-    shape = HalfSpace{};
-    obstacle.pose.orientation = Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane->normal);
-  } else if (const auto* box = std::get_if<BoxDescription>(&description.shape)) {
-    shape = Box{box->size / 2};
-    obstacle.pose.orientation = box->orientation;
-  } else if (const auto* capsule = std::get_if<CapsuleDescription>(&description.shape)) {
-    shape = Capsule{capsule->length / 2, capsule->radius};
-    obstacle.pose.orientation = capsule->orientation;
-  } else {
-    const auto& mesh = std::get<MeshDescription>(description.shape);
-    shape = Mesh{mesh.surface.get()};
-    obstacle.surface = mesh.surface;
-    obstacle.pose.orientation = mesh.orientation;
-  }
+  shape = std::visit([](const auto& own) { return own.shape(); }, description.shape);
+  obstacle.pose.orientation = std::visit([](const auto& own) { return turned(own); }, description.shape);
+  if (const auto* mesh = std::get_if<MeshDescription>(&description.shape)) obstacle.surface = mesh->surface;
   obstacle.path = description.path;
   obstacle.loops = description.loop;
   obstacle.mobile = !description.path.empty();

@@ -6,43 +6,6 @@
 
 namespace weft {
 
-// --- Effects ---
-
-template <class Archive>
-void serialize(Archive& archive, GravityEffect& effect) {
-  archive(effect.acceleration);
-}
-template <class Archive>
-void serialize(Archive&, DampingEffect&) {}
-template <class Archive>
-void serialize(Archive& archive, PaperWindEffect& effect) {
-  archive(effect.factor, effect.along_normal);
-}
-template <class Archive>
-void serialize(Archive& archive, AerodynamicsEffect& effect) {
-  archive(effect.air_density, effect.drag, effect.lift);
-}
-template <class Archive>
-void serialize(Archive& archive, StrainDampingEffect& effect) {
-  archive(effect.time);
-}
-template <class Archive>
-void serialize(Archive&, PlateBendingEffect&) {}
-template <class Archive>
-void serialize(Archive&, StrainLimitEffect&) {}
-template <class Archive>
-void serialize(Archive& archive, ClothContactEffect& effect) {
-  archive(effect.thickness, effect.friction);
-}
-template <class Archive>
-void serialize(Archive& archive, InflationEffect& effect) {
-  archive(effect.pressure, effect.volume, effect.fill_time);
-}
-template <class Archive>
-void serialize(Archive& archive, TearingEffect& effect) {
-  archive(effect.warp, effect.weft);
-}
-
 // --- Materials ---
 
 template <class Archive>

@@ -71,7 +71,7 @@ std::uint32_t rows_near(const kernels::NodeBlock<Real>& block, const PlacedShape
   return rows;
 }
 
-/// Which of a block's rows have a node in the shape; perhaps, if that is a mesh.
+/// Which of a block's rows have a node in the shape; perhaps, if that is one without a kernel of its own.
 template <class Real>
 std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedShape& placed) {
   if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
@@ -86,14 +86,12 @@ std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedSha
   if (const auto* capsule = std::get_if<Capsule>(&placed.shape)) {
     return kernels::rows_inside(block, stretch_of(placed, *capsule));
   }
-  if (std::holds_alternative<Mesh>(placed.shape)) {
-    return rows_near(block, placed, [](const Vec3&, std::size_t) { return 0.0; });
-  }
-  const Vec3 half = std::get<Box>(placed.shape).half;
+  const auto* cuboid = std::get_if<Box>(&placed.shape);
+  if (cuboid == nullptr) return rows_near(block, placed, [](const Vec3&, std::size_t) { return 0.0; });
   kernels::OrientedBox box{};
   for (int axis = 0; axis < 3; ++axis) {
     box.axis[axis] = {axes(0, axis), axes(1, axis), axes(2, axis), axes.col(axis).dot(placed.centre)};
-    box.half[axis] = half[axis];
+    box.half[axis] = cuboid->half[axis];
   }
   return kernels::rows_inside(block, box);
 }
