@@ -1,17 +1,14 @@
 #include "cloth/bodies/body_collision.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <span>
 #include <utility>
 
+#include "cloth/bodies/body_geometry.h"
 #include "cloth/bodies/contact_manifold.h"
 #include "cloth/shapes/box_tree.h"
 #include "cloth/shapes/triangle_mesh.h"
@@ -19,7 +16,7 @@
 namespace weft {
 namespace {
 
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+using Geometry = BodyGeometry::Geometry;
 using Pair = std::pair<int, int>;
 
 /// Of the smaller of two inner radii: what is nearer counts, as an impulse may bring it on; what moves
@@ -63,43 +60,6 @@ Eigen::AlignedBox3d swept_box(const Solid& solid) {
 bool add_overlap(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* pairs) {
   static_cast<std::vector<Pair>*>(pairs)->emplace_back(BoxTree::index_of(a), BoxTree::index_of(b));
   return false;  // go on
-}
-
-/// FCL's form of a mesh: convex, or hollow.
-Geometry convex_of(const TriangleList& list) {
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const std::array<int, 3>& triangle : list.triangles) {
-    faces->push_back(3);
-    faces->insert(faces->end(), triangle.begin(), triangle.end());
-  }
-  return std::make_shared<fcl::Convexd>(std::make_shared<const std::vector<Vec3>>(list.vertices),
-                                        static_cast<int>(list.triangles.size()), faces);
-}
-
-Geometry hollow_of(const TriangleList& list) {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const std::array<int, 3>& t : list.triangles) {
-    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
-                           static_cast<std::size_t>(t[2]));
-  }
-  model->beginModel();
-  model->addSubModel(list.vertices, triangles);
-  model->endModel();
-  return model;
-}
-
-/// Where it is at the step's end; FCL's capsules lie along z.
-fcl::Transform3d end_of(const Solid& solid) {
-  fcl::Transform3d transform = fcl::Transform3d::Identity();
-  transform.translation() = solid.position;
-  transform.linear() = solid.rotation;
-  if (std::holds_alternative<Capsule>(solid.shape)) {
-    Eigen::Matrix3d cyclic;
-    cyclic << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-    transform.linear() = solid.rotation * cyclic;
-  }
-  return transform;
 }
 
 /// Two solids while their contacts are looked for.
@@ -348,35 +308,18 @@ struct BodyCollision::Impl {
     } else if (is_ball(b)) {
       meeting.look_at_corners(true);
     } else if (is_convex(a.shape) && is_convex(b.shape)) {
-      meeting.look_at_faces(geometry(a), geometry(b));
+      meeting.look_at_faces(geometry.of(a), geometry.of(b));
     } else {
       meeting.look_at_corners(false);
       meeting.look_at_corners(true);
-      meeting.look_at_crossings(geometry(a), geometry(b));
+      meeting.look_at_crossings(geometry.of(a), geometry.of(b));
     }
-  }
-
-  /// As FCL has the shape; none of a ball and of a half-space, which are looked at otherwise.
-  Geometry geometry(const Solid& solid) {
-    return std::visit([&](const auto& shape) { return geometry_of(shape); }, solid.shape);
-  }
-  Geometry geometry_of(const Sphere&) const { return nullptr; }
-  Geometry geometry_of(const HalfSpace&) const { return nullptr; }
-  Geometry geometry_of(const Box& box) const { return std::make_shared<fcl::Boxd>(Vec3(2 * box.half)); }
-  Geometry geometry_of(const Capsule& capsule) const {
-    return std::make_shared<fcl::Capsuled>(capsule.radius, 2 * capsule.half);
-  }
-  Geometry geometry_of(const Mesh& mesh) {
-    const TriangleList& list = mesh.surface->list();
-    Geometry& known = surfaces[mesh.surface];
-    if (!known) known = list.convex ? convex_of(list) : hollow_of(list);
-    return known;
   }
 
   BoxTree tree;
   std::vector<int> bounded;  ///< solids in the tree
   std::vector<Pair> pairs;
-  std::map<const TriangleMesh*, Geometry> surfaces;
+  BodyGeometry geometry;
   std::vector<BodyContact> contacts;
 };
 
