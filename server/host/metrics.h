@@ -103,6 +103,8 @@ class Metrics {
   void dropped_frames(std::uint64_t count);
   void connections(std::size_t count);
   void viewers(std::size_t count);
+  /// Processor time that a network thread has used, s.
+  void network_thread(std::size_t number, double seconds);
 
   /// All of it as Prometheus reads it (text format 0.0.4), with the process' own figures as they are now.
   std::string text();
