@@ -69,7 +69,7 @@ class Bench(unittest.TestCase):
             self.assertAlmostEqual(told["costs"]["tls_us_per_frame"],
                                    told["tls"]["network_us_per_frame"] - told["plain"]["network_us_per_frame"], places=9)
             self.assertRegex(out, r"With TLS:\nviewers +5\n")
-            self.assertRegex(out, r"TLS costs:\ntls_joining_server_ms +-?[0-9.e-]+\n")
+            self.assertRegex(out, r"TLS costs:\ntls_joining_network_ms +-?[0-9.e-]+\n")
         self.assertRegex(self.bench(server, *load, "--ca", other, code=1)[1], "certificate verify failed")
 
     def test_bad_usage_and_nobody_there_are_told(self):
