@@ -215,11 +215,13 @@ void Metrics::connections(std::size_t count) { own_->connections.Set(static_cast
 void Metrics::viewers(std::size_t count) { own_->viewers.Set(static_cast<double>(count)); }
 
 void Metrics::network_thread(std::size_t number, double seconds) {
+  const std::lock_guard lock(taken_over_);
   auto& counter = own_->network.Add({{"thread", std::to_string(number)}});
   counter.Increment(std::max(0.0, seconds - counter.Value()));
 }
 
 void Metrics::look_at_process() {
+  const std::lock_guard lock(taken_over_);
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) == 0) {
     const auto seconds = [](const timeval& time) {

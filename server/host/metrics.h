@@ -1,12 +1,14 @@
 #pragma once
 /// What the server counts of itself, in Prometheus' terms. Names, units and meanings:
-/// server/docs/operations.md. Every method may be called from any thread, and none waits for another.
+/// server/docs/operations.md. Every method may be called from any thread, and those that count wait for
+/// nobody.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -116,6 +118,7 @@ class Metrics {
   std::unique_ptr<prometheus::Registry> registry_;
   struct Own;
   std::unique_ptr<Own> own_;
+  std::mutex taken_over_;  ///< of what others count, told by its growth: that is one thread's at a time
 };
 
 }  // namespace weft::host

@@ -1,5 +1,6 @@
 #pragma once
 /// What the sessions of one server share, on whichever of its network threads they are.
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -49,7 +50,8 @@ struct Context {
         options(std::move(o)),
         files(options.web),
         connections(options.max_connections, options.max_connections_per_address) {
-    for (int i = 0; i < options.network_threads; ++i) loops.push_back(std::make_unique<NetworkLoop>());
+    for (int i = 0; i < std::max(1, options.network_threads); ++i)
+      loops.push_back(std::make_unique<NetworkLoop>());
   }
 
   host::Host& host;

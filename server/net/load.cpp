@@ -272,7 +272,8 @@ LoadResult load(const Url& url, const LoadPlan& plan, const ClientSecurity& secu
       io.run_one_for(std::chrono::milliseconds(10));
     }
     if (io.stopped()) io.restart();  // it stops when nobody has anything to do
-    io.poll();
+    // Not all that is ready: frames may come faster than they are taken, and others are to join still.
+    for (int taken = 0; taken < kJoining && io.poll_one() > 0; ++taken) continue;
   }
   if (tally.joined == 0)
     throw ConnectionError("no viewer could join at " + host_header(url) + ": " +

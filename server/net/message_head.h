@@ -14,10 +14,10 @@ class MessageHead {
   MessageHead() = default;
   /// `payload`: bytes of the message, which follow the head.
   MessageHead(Kind kind, std::uint64_t payload) {
-    constexpr unsigned kFinal = 0x80, kTwoBytes = 126, kEightBytes = 127;
-    const int length = payload < kTwoBytes ? 0 : payload <= 0xffff ? 2 : 8;
-    add(kFinal | static_cast<unsigned>(kind));
-    add(length == 0 ? payload : length == 2 ? kTwoBytes : kEightBytes);
+    constexpr unsigned kWholeMessage = 0x80, kLengthInTwo = 126, kLengthInEight = 127;
+    const int length = payload < kLengthInTwo ? 0 : payload <= 0xffff ? 2 : 8;
+    add(kWholeMessage | static_cast<unsigned>(kind));
+    add(length == 0 ? payload : length == 2 ? kLengthInTwo : kLengthInEight);
     for (int i = length - 1; i >= 0; --i) add(payload >> (8 * i));
   }
   std::span<const std::uint8_t> bytes() const { return std::span(bytes_).first(size_); }

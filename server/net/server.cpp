@@ -42,7 +42,8 @@ ServerOptions within_means(ServerOptions options) {
   options.names.push_back(options.host);
   // Event loops have three descriptors each.
   const std::size_t others =
-      (kExtraConnections + 3) * static_cast<std::size_t>(options.network_threads) + kOtherDescriptors;
+      (kExtraConnections + 3) * static_cast<std::size_t>(std::max(1, options.network_threads)) +
+      kOtherDescriptors;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return options;
   const rlim_t wanted = options.max_connections + others;
@@ -239,6 +240,12 @@ void Server::run() {
     work.emplace_back(loops[i]->io().get_executor());
     others.emplace_back([&loop = *loops[i]] { loop.run(); });
   }
+  // However the first one ends, the others do before they are waited for.
+  struct EndOfAll {
+    Impl& impl;
+    ~EndOfAll() { impl.end(); }
+  };
+  const EndOfAll all{*impl_};
   loops.front()->run();
 }
 
