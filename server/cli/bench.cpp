@@ -24,13 +24,15 @@ struct BenchOptions {
   std::string url = "http://127.0.0.1:8080/", scene = "flag", json;
   net::LoadPlan plan;
   std::vector<double> mix{10, 30, 60};
-  double slow = 0;  ///< %
+  double slow = 0;         ///< %
+  bool tls = false;        ///< with it and without it
+  bool unchecked = false;  ///< the certificate
   net::ClientSecurity security;
 };
 
 /// What the server counts of itself; 0 where it does not tell.
 struct ServerCount {
-  double cpu = 0, memory = 0, dropped = 0, overruns = 0;
+  double cpu = 0, memory = 0, dropped = 0, overruns = 0, network = 0, frames = 0;
 
   static ServerCount ask(net::Url url, const net::ClientSecurity& security) {
     url.target = "/metrics";
@@ -50,16 +52,25 @@ struct ServerCount {
     count.memory = sum("process_resident_memory_bytes");
     count.dropped = sum("weft_dropped_frames_total");
     count.overruns = sum("weft_step_overruns_total");
+    count.network = sum("weft_network_cpu_seconds_total");
+    count.frames = sum("weft_sent_frames_total");
     return count;
   }
 };
 
-ordered_json summary(const net::LoadResult& result, const net::LoadPlan& plan, const ServerCount& before,
-                     const ServerCount& after) {
+/// Processor time of the network threads a frame sent, us.
+double network_us(const ServerCount& before, const ServerCount& after) {
+  return 1e6 * (after.network - before.network) / std::max(1.0, after.frames - before.frames);
+}
+
+ordered_json summary(const net::LoadResult& result, const net::LoadPlan& plan, const ServerCount& begun,
+                     const ServerCount& before, const ServerCount& after) {
   const double seconds = result.seconds;
   return {{"viewers", plan.viewers},
           {"joined", result.joined},
           {"failures", result.failures.size()},
+          {"joining_seconds", result.joining},
+          {"joining_network_ms", 1e3 * (before.network - begun.network) / result.joined},
           {"seconds", seconds},
           {"frames_per_second", static_cast<double>(result.frames) / seconds},
           {"fewest_per_second", result.fewest},
@@ -72,8 +83,46 @@ ordered_json summary(const net::LoadResult& result, const net::LoadPlan& plan, c
           {"dropped_per_second", (after.dropped - before.dropped) / seconds},
           {"overruns", after.overruns - before.overruns},
           {"server_cores", (after.cpu - before.cpu) / seconds},
+          {"network_cores", (after.network - before.network) / seconds},
+          {"network_us_per_frame", network_us(before, after)},
           {"server_megabytes", after.memory / 1e6},
           {"own_cores", result.own_cpu / seconds}};
+}
+
+/// One load: its figures, and whether all viewers stayed.
+struct Measured {
+  ordered_json told;
+  std::vector<std::string> failures;
+};
+
+Measured measure(const net::Url& url, const BenchOptions& options) {
+  const ServerCount begun = ServerCount::ask(url, options.security);
+  ServerCount before;
+  const net::LoadResult result = net::load(url, options.plan, options.security,
+                                           [&] { before = ServerCount::ask(url, options.security); });
+  return {summary(result, options.plan, begun, before, ServerCount::ask(url, options.security)),
+          result.failures};
+}
+
+void print(const Measured& measured) {
+  for (const auto& [name, value] : measured.told.items())
+    std::printf("%-22s %.6g\n", name.c_str(), value.get<double>());
+  if (!measured.failures.empty())
+    std::printf("first failure          %s\n", measured.failures.front().c_str());
+}
+
+/// What the second load costs more than the first, where the two differ in TLS alone.
+ordered_json tls_costs(const ordered_json& plain, const ordered_json& secure) {
+  const auto more = [&](const char* name) { return secure[name].get<double>() - plain[name].get<double>(); };
+  const double megabytes = std::max(1e-9, secure["megabytes_per_second"].get<double>());
+  const double frames = secure["frames_per_second"].get<double>();
+  const double per_frame = more("network_us_per_frame");
+  return {{"tls_joining_network_ms", more("joining_network_ms")},
+          {"tls_us_per_frame", per_frame},
+          {"tls_us_per_kilobyte", per_frame * frames / (1e3 * megabytes)},
+          {"tls_age_ms_p99", more("age_ms_p99")},
+          {"tls_kilobytes_per_viewer",
+           1e3 * more("server_megabytes") / std::max(1.0, secure["joined"].get<double>())}};
 }
 
 int bench(BenchOptions& options) {
@@ -81,21 +130,36 @@ int bench(BenchOptions& options) {
   if (!(shares > 0)) throw CLI::ValidationError("--mix", "needs a share above 0");
   for (std::size_t i = 0; i < options.mix.size(); ++i) options.plan.mix[i] = options.mix[i] / shares;
   options.plan.slow = options.slow / 100;
+  options.security.check_certificate = !options.unchecked;
+  const std::size_t room = net::make_room_for_connections();
+  if (static_cast<std::size_t>(options.plan.viewers) > room)
+    throw CLI::ValidationError("--viewers", std::to_string(options.plan.viewers) + " are more than the " +
+                                                std::to_string(room) +
+                                                " connections that this process may have (ulimit -n)");
   net::Url url = net::Url::parse(options.url);
   if (url.target.ends_with('/')) url.target += "v1/scenes/" + options.scene;
-  ServerCount before;
-  const net::LoadResult result = net::load(url, options.plan, options.security,
-                                           [&] { before = ServerCount::ask(url, options.security); });
-  const ordered_json told = summary(result, options.plan, before, ServerCount::ask(url, options.security));
-  for (const auto& [name, value] : told.items())
-    std::printf("%-22s %.6g\n", name.c_str(), value.get<double>());
-  if (!result.failures.empty()) std::printf("first failure          %s\n", result.failures.front().c_str());
+  if (options.tls) url.secure = false;
+  Measured measured = measure(url, options);
+  print(measured);
+  ordered_json told = measured.told;
+  bool all = measured.failures.empty();
+  if (options.tls) {
+    url.secure = true;
+    std::printf("\nWith TLS:\n");
+    const Measured secure = measure(url, options);
+    print(secure);
+    const ordered_json costs = tls_costs(measured.told, secure.told);
+    std::printf("\nTLS costs:\n");
+    print({costs, {}});
+    told = {{"plain", measured.told}, {"tls", secure.told}, {"costs", costs}};
+    all = all && secure.failures.empty();
+  }
   if (!options.json.empty()) {
     std::ofstream file(options.json);
     file << told.dump(2) << '\n';
     if (!file.flush()) throw std::runtime_error(options.json + ": cannot be written");
   }
-  return result.failures.empty() ? 0 : kFailed;
+  return all ? 0 : kFailed;
 }
 
 }  // namespace
@@ -127,6 +191,13 @@ void add_bench(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   serve->add_option("--json", options->json, "File for the same as JSON");
+  serve->add_flag("--tls", options->tls,
+                  "Measures twice, without TLS and with it, at the same port, and prints what it costs");
+  serve
+      ->add_option("--ca", options->security.authorities,
+                   "Certificates (PEM) to trust with TLS in place of the system's")
+      ->check(CLI::ExistingFile);
+  serve->add_flag("--unchecked", options->unchecked, "With TLS takes any certificate");
   serve->add_option("--token", options->security.token, "The server's, where it asks for one")
       ->envname("WEFT_TOKEN");
   serve->callback([options, &exit_code] { exit_code = bench(*options); });

@@ -1,5 +1,6 @@
+#include <cerrno>
 #include <cstdio>
-#include <fstream>
+#include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +12,7 @@
 #include "fabric/fit.h"
 #include "fabric/report.h"
 #include "fabric/specimen.h"
+#include "scene/document.h"
 #include "scene/scene.h"
 
 namespace weft::cli {
@@ -74,18 +76,28 @@ int test(const TestOptions& options) {
   return 0;
 }
 
+/// The file's numbers; null, and what is wrong has been said.
+json numbers_in(const std::string& path) {
+  const auto text = scene::read_text_file(path);
+  if (!text) {
+    std::fprintf(stderr, "weft: %s: cannot be read: %s\n", path.c_str(), std::strerror(errno));
+    return nullptr;
+  }
+  scene::Document document = scene::read_document(*text);
+  for (const auto& [where, literal] : document.overflows)
+    document.problems.push_back({where, "is " + literal + "; allowed: finite numbers"});
+  if (document.problems.empty() && !document.tree.is_object())
+    document.problems.push_back({"", "is not a JSON object of numbers"});
+  if (document.problems.empty()) return std::move(document.tree);
+  print_problems(path, document.problems);
+  return nullptr;
+}
+
 /// The file's numbers and those of the command line, which count where both have one; null, and what is wrong
 /// has been said.
 json numbers_of(const FitOptions& options) {
-  json numbers = json::object();
-  if (!options.file.empty()) {
-    numbers = json::parse(std::ifstream(options.file), nullptr, false);
-    if (!numbers.is_object()) {
-      std::fprintf(stderr, "weft: %s is not a JSON object of numbers\n", options.file.c_str());
-      return nullptr;
-    }
-  }
-  numbers.update(options.numbers);
+  json numbers = options.file.empty() ? json::object() : numbers_in(options.file);
+  if (!numbers.is_null()) numbers.update(options.numbers);
   return numbers;
 }
 

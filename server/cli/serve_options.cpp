@@ -41,7 +41,6 @@ void add_limits(CLI::App& command, protocol::Limits& limits, host::MakingLimits&
 
 /// The scene `name` held to one level: NAME-level-L. It has so many cloths.
 scene::Result load_at(int level, const ServeOptions& options, const std::string& name, std::size_t cloths) {
-  constexpr std::size_t kNameLength = 64;
   std::vector<std::string> overrides = options.overrides;
   const std::string number = std::to_string(level);
   for (std::size_t cloth = 0; cloth < cloths; ++cloth) {
@@ -53,9 +52,10 @@ scene::Result load_at(int level, const ServeOptions& options, const std::string&
   if (auto* scene = std::get_if<scene::Scene>(&result)) {
     scene->name.append("-level-").append(number);
     scene->title.append(", level ").append(number);
-    if (scene->name.size() > kNameLength)
-      return std::vector<scene::Problem>{
-          {"", scene->name + ": the name has more than 64 characters (--split)"}};
+    if (scene->name.size() > scene::kLongestSceneName)
+      return std::vector<scene::Problem>{{"", scene->name + ": the name has more than " +
+                                                  std::to_string(scene::kLongestSceneName) +
+                                                  " characters (--split)"}};
   }
   return result;
 }

@@ -67,6 +67,13 @@ void ServingOptions::add_to(CLI::App& command) {
           "behind a proxy, through which all come from one address")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
+  constexpr int kMostNetworkThreads = 64;
+  command
+      .add_option("--network-threads", server.network_threads,
+                  "Threads that connections are spread among: one more where "
+                  "weft_network_cpu_seconds_total says that one is full")
+      ->check(CLI::Range(1, kMostNetworkThreads))
+      ->capture_default_str();
   command
       .add_option("--tokens", server.tokens,
                   "File of bearer tokens and what each may do: view, control or admin (JSON)")

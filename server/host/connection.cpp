@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host/server_clock.h"
+#include "protocol/plain_ack.h"
 
 namespace weft::host {
 
@@ -25,6 +26,11 @@ Connection::Connection(Host& host, std::shared_ptr<SceneRunner> scene, protocol:
 Connection::~Connection() {
   scene_->leave(viewer_, visit_, !parted_);
   scene_->give_back();
+}
+
+bool Connection::take_plain_ack(std::string_view text) {
+  const auto frame = protocol::read_plain_ack(text);
+  return frame && viewer_->acknowledge(*frame);
 }
 
 Connection::Pace Connection::receive(std::string_view text, TimePoint now) {

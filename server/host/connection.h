@@ -35,6 +35,9 @@ class Connection {
     slow_down,  ///< it came too fast and was dropped: read the next one later
     end         ///< too many came too fast: close the connection
   };
+  /// Carries out what a viewer sends most, a plain acknowledgement of a frame that was sent (read_plain_ack);
+  /// false for any other message, which receive() takes.
+  bool take_plain_ack(std::string_view text);
   /// One text message of at most Limits::message_bytes.
   Pace receive(std::string_view text, TimePoint now);
 

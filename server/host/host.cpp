@@ -15,8 +15,7 @@ constexpr std::size_t kInstanceDigits = 16;
 
 /// As a file's name without its extension, and a part of an URL.
 bool is_scene_name(std::string_view name) {
-  constexpr std::size_t kLongest = 64;
-  return !name.empty() && name.size() <= kLongest &&
+  return !name.empty() && name.size() <= scene::kLongestSceneName &&
          name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string_view::npos;
 }
 
@@ -124,7 +123,10 @@ std::optional<NotMade> Host::refusal(const std::string& name, long nodes) const 
 
 std::optional<NotMade> Host::make(const std::string& name, std::string_view document) {
   if (!is_scene_name(name))
-    return NotMade{Why::bad_name, "a scene's name must be 1..64 of a-z, 0-9 and -", {}};
+    return NotMade{
+        Why::bad_name,
+        "a scene's name must be 1.." + std::to_string(scene::kLongestSceneName) + " of a-z, 0-9 and -",
+        {}};
   scene::Result read = scene::parse(document, name);
   if (auto* problems = std::get_if<std::vector<scene::Problem>>(&read))
     return NotMade{Why::problems, "the document has problems", std::move(*problems)};

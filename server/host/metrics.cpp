@@ -169,6 +169,7 @@ struct Metrics::Own {
                         "Frames replaced by newer ones before they could be sent")),
         connections(gauge(registry, "weft_connections", "Open connections of any kind")),
         viewers(gauge(registry, "weft_viewers", "Open WebSockets")),
+        network(counters(registry, "weft_network_cpu_seconds_total", "Processor time of a network thread")),
         cpu(counter(registry, "process_cpu_seconds_total", "User and system time of the process")),
         memory(gauge(registry, "process_resident_memory_bytes", "Resident memory")),
         descriptors(gauge(registry, "process_open_fds", "Open file descriptors")) {}
@@ -176,6 +177,7 @@ struct Metrics::Own {
   prometheus::Family<prometheus::Counter>&refused_commands, &refused_requests, &closed_viewers;
   prometheus::Counter &frames, &frame_bytes, &texts, &text_bytes, &dropped;
   prometheus::Gauge &connections, &viewers;
+  prometheus::Family<prometheus::Counter>& network;
   prometheus::Counter& cpu;
   prometheus::Gauge &memory, &descriptors;
 };
@@ -212,7 +214,14 @@ void Metrics::dropped_frames(std::uint64_t count) { own_->dropped.Increment(stat
 void Metrics::connections(std::size_t count) { own_->connections.Set(static_cast<double>(count)); }
 void Metrics::viewers(std::size_t count) { own_->viewers.Set(static_cast<double>(count)); }
 
+void Metrics::network_thread(std::size_t number, double seconds) {
+  const std::lock_guard lock(taken_over_);
+  auto& counter = own_->network.Add({{"thread", std::to_string(number)}});
+  counter.Increment(std::max(0.0, seconds - counter.Value()));
+}
+
 void Metrics::look_at_process() {
+  const std::lock_guard lock(taken_over_);
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) == 0) {
     const auto seconds = [](const timeval& time) {

@@ -1,12 +1,14 @@
 #pragma once
 /// What the server counts of itself, in Prometheus' terms. Names, units and meanings:
-/// server/docs/operations.md. Every method may be called from any thread, and none waits for another.
+/// server/docs/operations.md. Every method may be called from any thread, and those that count wait for
+/// nobody.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -103,6 +105,8 @@ class Metrics {
   void dropped_frames(std::uint64_t count);
   void connections(std::size_t count);
   void viewers(std::size_t count);
+  /// Processor time that a network thread has used, s.
+  void network_thread(std::size_t number, double seconds);
 
   /// All of it as Prometheus reads it (text format 0.0.4), with the process' own figures as they are now.
   std::string text();
@@ -114,6 +118,7 @@ class Metrics {
   std::unique_ptr<prometheus::Registry> registry_;
   struct Own;
   std::unique_ptr<Own> own_;
+  std::mutex taken_over_;  ///< of what others count, told by its growth: that is one thread's at a time
 };
 
 }  // namespace weft::host

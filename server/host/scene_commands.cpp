@@ -206,6 +206,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
+  waiting_steps_ = 0;
   const json before = composition();
   recorded_.run(command::Reset{});
   effects_ = scene_.simulation.effects;
@@ -227,7 +228,6 @@ void LiveScene::begun_anew() {
   put_.clear();
   quality_.restarted();
   guard_ = {};
-  waiting_steps_ = 0;
   ++epoch_;
   takes_effect_ = simulation_.step_count();
   find_bounds();

@@ -48,7 +48,8 @@ Answer readiness(const Context& context) {
 Answer metrics(const Context& context) {
   host::Metrics& counts = context.host.metrics();
   counts.connections(context.connections.taken());
-  counts.viewers(context.viewers.size());
+  counts.viewers(context.viewers);
+  for (std::size_t i = 0; i < context.loops.size(); ++i) counts.network_thread(i, context.loops[i]->cpu());
   Answer answer = plain(http::status::ok, counts.text());
   answer.media_type = "text/plain; version=0.0.4; charset=utf-8";
   return answer;

@@ -4,9 +4,7 @@
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
@@ -14,7 +12,7 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "net/resolve.h"
-#include "net/tls.h"
+#include "net/secure.h"
 #include "net/transport.h"
 #include "protocol/message.h"
 
@@ -54,10 +52,7 @@ void secure(asio::io_context& io, Transport& stream, const Url& url, const Clien
   } catch (const std::runtime_error& error) {
     throw ConnectionError(error.what());
   }
-  Transport::Tls& tls = stream.begin_tls(context);
-  const std::string name = unbracketed(url.host);
-  tls.set_verify_callback(asio::ssl::host_name_verification(name));
-  SSL_set_tlsext_host_name(tls.native_handle(), name.c_str());
+  Transport::Tls& tls = begin_client_tls(stream, context, url, security);
   std::optional<error_code> result;
   tls.async_handshake(asio::ssl::stream_base::client, [&](error_code error) { result = error; });
   run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
@@ -69,7 +64,7 @@ void connect(asio::io_context& io, Transport& stream, const Url& url, std::chron
              const ClientSecurity& security) {
   const auto found = resolve(io, url);
   std::optional<error_code> result;
-  beast::tcp_stream& tcp = stream.next_layer();
+  TcpStream& tcp = stream.next_layer();
   tcp.expires_after(limit);
   tcp.async_connect(found, [&](error_code error, const tcp::endpoint&) { result = error; });
   run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
@@ -112,7 +107,7 @@ Url Url::parse(std::string_view text) {
 
 HttpReply http_get(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security) {
   asio::io_context io{1};
-  Transport stream{beast::tcp_stream(io)};
+  Transport stream{TcpStream(io)};
   connect(io, stream, url, limit, security);
   http::request<http::empty_body> request{http::verb::get, url.target, 11};
   request.set(http::field::host, host_header(url));
@@ -139,7 +134,7 @@ struct Client::Impl {
   [[noreturn]] void fail(const char* doing, error_code error) const;
 
   asio::io_context io{1};
-  websocket::stream<Transport> ws{beast::tcp_stream(io)};
+  websocket::stream<Transport> ws{TcpStream(io)};
   beast::flat_buffer incoming;
   bool reading = false;
   std::optional<error_code> read_result;

@@ -27,6 +27,8 @@ struct Url {
 struct ClientSecurity {
   std::string token;                  ///< empty: none
   std::filesystem::path authorities;  ///< certificates (PEM) trusted with TLS; empty: the system's
+  /// False: whoever answers is taken for the server. To measure, not to be safe.
+  bool check_certificate = true;
 };
 
 /// The server refused, closed, or cannot be reached; what() says which.

@@ -1,7 +1,8 @@
 #pragma once
-/// How many connections there are, and from where. Used by one thread.
+/// How many connections there are, and from where. Any thread may use it.
 #include <cstddef>
 #include <map>
+#include <mutex>
 #include <string>
 
 namespace weft::net {
@@ -36,12 +37,15 @@ class ConnectionPool {
   ConnectionPool& operator=(const ConnectionPool&) = delete;
 
   /// Connections that have one.
-  std::size_t taken() const { return taken_; }
+  std::size_t taken() const;
   /// A place for a connection from `address`, if there is one. The pool must outlive it.
   Place take(std::string address);
 
  private:
+  void give_back(const std::string& address);
+
   const std::size_t max_, max_per_address_;
+  mutable std::mutex mutex_;  // of what follows
   std::size_t taken_ = 0;
   std::map<std::string, std::size_t> by_address_;  ///< only those that have some
 };

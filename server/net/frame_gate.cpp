@@ -26,9 +26,35 @@ void FrameGate::received(std::size_t count, TimePoint now) {
     const auto head = parse_frame_head({bytes_.data() + checked_, left});
     if (!head) return;
     if (const auto code = rules_.broken_by(*head, now)) return shut_with(*code);
+    if (taken_aside(*head)) continue;
+    if (!head->control) fragmented_ = !head->final;
     checked_ += head->size;
     payload_left_ = head->payload;
   }
+}
+
+/// Of a message in fragments, of one that is not masked and of one that has come in part only the WebSocket
+/// knows what to do.
+bool FrameGate::taken_aside(const FrameHead& head) {
+  constexpr unsigned char kWholeText = 0x81, kMaskBit = 0x80;
+  constexpr std::size_t kShort = 125, kMaskSize = 4;
+  const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(checked_);
+  if (!take_ || fragmented_ || static_cast<unsigned char>(begin[0]) != kWholeText ||
+      (static_cast<unsigned char>(begin[1]) & kMaskBit) == 0 || head.payload > kShort)
+    return false;
+  const auto size = static_cast<std::size_t>(head.payload);
+  if (end_ - checked_ < head.size + size) return false;
+  std::array<char, kShort> text;
+  const auto payload = begin + static_cast<std::ptrdiff_t>(head.size);
+  const auto mask = payload - static_cast<std::ptrdiff_t>(kMaskSize);
+  for (std::size_t i = 0; i < size; ++i)
+    text[i] = static_cast<char>(payload[static_cast<std::ptrdiff_t>(i)] ^
+                                mask[static_cast<std::ptrdiff_t>(i % kMaskSize)]);
+  if (!take_({text.data(), size})) return false;
+  std::copy(payload + static_cast<std::ptrdiff_t>(size), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
+            begin);
+  end_ -= head.size + size;
+  return true;
 }
 
 void FrameGate::shut_with(std::uint16_t code) {

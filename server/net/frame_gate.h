@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -19,6 +20,12 @@ class FrameGate {
 
   FrameGate(int frames_per_second, TimePoint now) : rules_(frames_per_second, now) {}
 
+  /// A short text that came in one frame; true if that was all there was to do with it.
+  using Take = std::function<bool(std::string_view text)>;
+  /// From now on such texts are shown to `take` first, and what it takes is not handed on: so that what comes
+  /// most often need not go through the whole WebSocket.
+  void show_texts_to(Take take) { take_ = std::move(take); }
+
   /// Where the next bytes received go; only while nothing is ready() and the gate is not shut(). Never empty.
   std::span<char> room();
   /// So many bytes have come there.
@@ -32,6 +39,7 @@ class FrameGate {
 
  private:
   void shut_with(std::uint16_t code);
+  bool taken_aside(const FrameHead& head);
 
   static constexpr std::size_t kCapacity = 1024, kCloseBytes = 8;
 
@@ -40,7 +48,9 @@ class FrameGate {
   std::size_t begin_ = 0, checked_ = 0, end_ = 0;
   std::uint64_t payload_left_ = 0;  ///< bytes of the last checked frame that have not come yet
   FrameRules rules_;
+  bool fragmented_ = false;  ///< a message has begun and not ended
   bool shut_ = false;
+  Take take_;
 };
 
 }  // namespace weft::net

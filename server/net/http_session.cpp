@@ -28,7 +28,6 @@ namespace weft::net {
 namespace beast = boost::beast;
 namespace http = beast::http;
 using beast::error_code;
-using boost::asio::ip::tcp;
 
 namespace {
 
@@ -57,30 +56,35 @@ bool is_this_machine(const boost::asio::ip::address& address) {
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(Context& context, ConnectionPool::Place place, tcp::socket socket)
-      : context_(context), place_(std::move(place)), stream_(beast::tcp_stream(std::move(socket))) {}
+  HttpSession(Context& context, Berth berth, ConnectionPool::Place place, TcpSocket socket)
+      : context_(context),
+        berth_(std::move(berth)),
+        place_(std::move(place)),
+        stream_(TcpStream(std::move(socket))) {}
 
   void start() {
-    if (!context_.tls) return read();
+    const TlsContext certificate = context_.secrets.get()->tls;
+    if (!certificate) return read();
     tcp().expires_after(kRequestTime);
-    beast::async_detect_ssl(tcp(), buffer_, [self = shared_from_this()](error_code error, bool tls) {
-      if (error) return self->end();
-      if (!tls) return self->read();
-      self->stream_.begin_tls(self->context_.tls)
-          .async_handshake(boost::asio::ssl::stream_base::server, self->buffer_.data(),
-                           [self](error_code failed, std::size_t used) {
-                             self->buffer_.consume(used);
-                             if (failed) return self->cut();
-                             self->read();
-                           });
-    });
+    beast::async_detect_ssl(
+        tcp(), buffer_, [self = shared_from_this(), certificate](error_code error, bool tls) {
+          if (error) return self->end();
+          if (!tls) return self->read();
+          self->stream_.begin_tls(certificate)
+              .async_handshake(boost::asio::ssl::stream_base::server, self->buffer_.data(),
+                               [self](error_code failed, std::size_t used) {
+                                 self->buffer_.consume(used);
+                                 if (failed) return self->cut();
+                                 self->read();
+                               });
+        });
   }
 
   /// Ends it at once, whatever it does.
   void cut() { tcp().close(); }
 
  private:
-  beast::tcp_stream& tcp() { return stream_.next_layer(); }
+  TcpStream& tcp() { return stream_.next_layer(); }
 
   void read() {
     // A parser reads one message.
@@ -172,7 +176,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   /// Where there is a certificate, a token is shown to this machine alone without TLS.
   bool must_be_secure() {
-    if (!context_.tls || stream_.has_tls() || context_.options.insecure) return false;
+    if (stream_.has_tls() || context_.options.insecure || !context_.secrets.get()->tls) return false;
     error_code error;
     const auto peer = tcp().socket().remote_endpoint(error).address();
     return !error && !is_this_machine(peer);
@@ -190,7 +194,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::optional<Answer> find_role() {
     const Credentials credentials = credentials_of(parser_->get());
     if (!credentials.fault.empty()) return plain(http::status::bad_request, credentials.fault + "\n");
-    const auto role = context_.access.role_of(credentials.token);
+    const auto role = context_.secrets.get()->access.role_of(credentials.token);
     if (role) {
       role_ = *role;
       return std::nullopt;
@@ -267,7 +271,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       case host::Host::Ending::ended:
         break;
     }
-    end_websocket_sessions_in(context_, *scene);
+    end_websocket_sessions_in(context_, scene);
     spdlog::info("scene {}: ended by a client", name);
     write(plain(http::status::no_content, ""), last);
   }
@@ -297,8 +301,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
                    last);
     }
-    start_websocket_session(context_, std::move(place_), std::move(stream_), request, std::move(scene),
-                            role_);
+    start_websocket_session(context_, std::move(berth_), std::move(place_), std::move(stream_), request,
+                            std::move(scene), role_);
   }
 
   void write(const Answer& answer, bool last) {
@@ -354,6 +358,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   Context& context_;
+  Berth berth_;
   ConnectionPool::Place place_;
   Transport stream_;
   protocol::Role role_ = protocol::Role::view;
@@ -367,7 +372,7 @@ namespace {
 
 /// What counts as one peer: an IPv4 address, or the /64 network of an IPv6 address, in which one has as many
 /// addresses as one likes.
-std::string peer_of(const tcp::socket& socket) {
+std::string peer_of(const TcpSocket& socket) {
   namespace ip = boost::asio::ip;
   error_code error;
   const ip::address address = socket.remote_endpoint(error).address();
@@ -382,12 +387,14 @@ std::string peer_of(const tcp::socket& socket) {
 
 }  // namespace
 
-void start_http_session(Context& context, tcp::socket socket) {
+void start_http_session(Context& context, Berth berth, TcpSocket socket) {
   auto place = context.connections.take(peer_of(socket));
   const bool extra = place.refusal() != NoPlace::none;
-  const auto session = std::make_shared<HttpSession>(context, std::move(place), std::move(socket));
+  NetworkLoop& loop = berth.loop();
+  const auto session =
+      std::make_shared<HttpSession>(context, std::move(berth), std::move(place), std::move(socket));
   if (extra) {
-    auto& slot = context.extra[context.next_extra++ % context.extra.size()];
+    auto& slot = loop.extra[loop.next_extra++ % loop.extra.size()];
     if (const auto oldest = slot.lock()) oldest->cut();
     slot = session;
   }

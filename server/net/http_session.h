@@ -1,14 +1,11 @@
 #pragma once
-#include <utility>
-// Boost 1.74 needs <utility> before it.
-#include <boost/asio/ip/tcp.hpp>
-#include <memory>
-
 #include "net/context.h"
+#include "net/transport.h"
 
 namespace weft::net {
 
-/// Serves one accepted connection until it ends or becomes a WebSocket.
-void start_http_session(Context& context, boost::asio::ip::tcp::socket socket);
+/// Serves one accepted connection until it ends or becomes a WebSocket. On the thread of its loop, whose
+/// executor the socket has.
+void start_http_session(Context& context, Berth berth, TcpSocket socket);
 
 }  // namespace weft::net

@@ -12,12 +12,10 @@
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include "net/resolve.h"
-#include "net/transport.h"
+#include "net/secure.h"
 #include "protocol/frame.h"
 #include "protocol/message.h"
 
@@ -61,10 +59,12 @@ struct Tally {
 /// One viewer: joins, tells its distance, acknowledges each frame when it would have shown it.
 class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
  public:
-  LoadViewer(asio::io_context& io, const Url& url, const ClientSecurity& security, double distance,
-             double rate, bool slow, Tally& tally)
-      : ws_(beast::tcp_stream(io)),
+  /// With `tls` where the URL asks for it.
+  LoadViewer(asio::io_context& io, const Url& url, const ClientSecurity& security, TlsContext tls,
+             double distance, double rate, bool slow, Tally& tally)
+      : ws_(TcpStream(io)),
         pause_(io),
+        tls_(std::move(tls)),
         url_(url),
         security_(security),
         distance_(distance),
@@ -77,6 +77,7 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
     beast::get_lowest_layer(ws_).async_connect(
         where, [self = shared_from_this()](error_code error, const tcp::endpoint&) {
           if (error) return self->fail("connecting", error);
+          if (self->tls_) return self->begin_tls();
           self->shake_hands();
         });
   }
@@ -92,6 +93,14 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
   std::uint64_t frames() const { return frames_; }
 
  private:
+  void begin_tls() {
+    begin_client_tls(ws_.next_layer(), tls_, url_, security_)
+        .async_handshake(asio::ssl::stream_base::client, [self = shared_from_this()](error_code error) {
+          if (error) return self->fail("TLS", error);
+          self->shake_hands();
+        });
+  }
+
   void shake_hands() {
     beast::get_lowest_layer(ws_).expires_never();
     error_code ignored;
@@ -118,8 +127,9 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
     read();
   }
 
+  /// Asks for no reply: as clients send what they send most.
   void say(const protocol::Command& command) {
-    queue_.push_back(protocol::to_text({++last_id_, command}));
+    queue_.push_back(protocol::to_text({std::nullopt, command}));
     if (queue_.size() == 1) write();
   }
 
@@ -197,7 +207,8 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
   }
 
   websocket::stream<Transport> ws_;
-  asio::steady_timer pause_;
+  SteadyTimer pause_;
+  const TlsContext tls_;
   const Url& url_;
   const ClientSecurity& security_;
   const double distance_, rate_;
@@ -206,7 +217,6 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
   websocket::response_type response_;
   beast::flat_buffer incoming_;
   std::deque<std::string> queue_;  ///< of what is being sent the first; one that is pushed moves none
-  std::int64_t last_id_ = 0;
   std::uint64_t frames_ = 0;
   std::uint32_t shown_ = 0;
   double asked_ms_ = 0, due_ms_ = 0;
@@ -223,6 +233,15 @@ double distance_of(const LoadPlan& plan, int i) {
 
 }  // namespace
 
+std::size_t make_room_for_connections() {
+  constexpr rlim_t kOthers = 32;  // standard streams, event loop
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+  return getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur > kOthers ? limit.rlim_cur - kOthers : 0;
+}
+
 double LoadResult::age(double percent) const {
   if (ages.empty()) return 0;
   const auto last = static_cast<double>(ages.size() - 1);
@@ -231,30 +250,41 @@ double LoadResult::age(double percent) const {
 
 LoadResult load(const Url& url, const LoadPlan& plan, const ClientSecurity& security,
                 const std::function<void()>& joined) {
-  if (url.secure) throw ConnectionError("load is measured without TLS: give an http: or ws: address");
   asio::io_context io{1};
+  TlsContext tls;
+  try {
+    if (url.secure) tls = client_tls(security.authorities);
+  } catch (const std::runtime_error& error) {
+    throw ConnectionError(error.what());
+  }
   const auto where = resolve(io, url);
   Tally tally;
   std::vector<std::shared_ptr<LoadViewer>> viewers;
   const int stride = plan.slow > 0 ? std::max(1, static_cast<int>(std::lround(1 / plan.slow))) : 0;
-  const auto until = Clock::now() + kJoinTime;
+  const auto begun_at = Clock::now(), until = begun_at + kJoinTime;
   while (tally.settled < plan.viewers && Clock::now() < until) {
     const auto begun = static_cast<int>(viewers.size());
     if (begun < plan.viewers && begun - tally.settled < kJoining) {
-      viewers.push_back(std::make_shared<LoadViewer>(io, url, security, distance_of(plan, begun), plan.rate,
-                                                     stride > 0 && begun % stride == 0, tally));
+      viewers.push_back(std::make_shared<LoadViewer>(io, url, security, tls, distance_of(plan, begun),
+                                                     plan.rate, stride > 0 && begun % stride == 0, tally));
       viewers.back()->join(where);
     } else {
       io.run_one_for(std::chrono::milliseconds(10));
     }
     if (io.stopped()) io.restart();  // it stops when nobody has anything to do
-    io.poll();
+    // Not all that is ready: frames may come faster than they are taken, and others are to join still.
+    for (int taken = 0; taken < kJoining && io.poll_one() > 0; ++taken) continue;
   }
   if (tally.joined == 0)
     throw ConnectionError("no viewer could join at " + host_header(url) + ": " +
                           (tally.failures.empty() ? "no frame came" : tally.failures.front()));
-  joined();
+  // Of those who have not answered at all.
+  for (int missing = tally.settled; missing < plan.viewers; ++missing)
+    tally.failures.emplace_back("no frame came in " + std::to_string(kJoinTime.count()) + " s");
   LoadResult result;
+  result.joined = tally.joined;
+  result.joining = std::chrono::duration<double>(Clock::now() - begun_at).count();
+  joined();
   const double cpu = own_cpu();
   const auto start = Clock::now();
   tally.measuring = true;
@@ -262,7 +292,6 @@ LoadResult load(const Url& url, const LoadPlan& plan, const ClientSecurity& secu
   tally.measuring = false;
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   result.own_cpu = own_cpu() - cpu;
-  result.joined = tally.joined;
   result.failures = std::move(tally.failures);
   result.frames = tally.frames;
   result.bytes = tally.bytes;

@@ -21,9 +21,13 @@ struct LoadPlan {
   double seconds = 10;                          ///< of measuring, after all have joined
 };
 
+/// Lets this process have as many connections as it may ask for; how many those are.
+std::size_t make_room_for_connections();
+
 /// Of the frames that came while it was measured.
 struct LoadResult {
   int joined = 0;                     ///< viewers
+  double joining = 0;                 ///< s until they had
   std::vector<std::string> failures;  ///< why the others did not, or left
   double seconds = 0;
   std::uint64_t frames = 0, bytes = 0;
@@ -38,7 +42,7 @@ struct LoadResult {
 };
 
 /// Connects all viewers to the scene, calls `joined`, measures, and lets them go. Throws ConnectionError if
-/// not one joins.
+/// not one joins, or `security` cannot be used.
 LoadResult load(const Url& url, const LoadPlan& plan, const ClientSecurity& security,
                 const std::function<void()>& joined);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,7 +9,7 @@
 namespace weft::net {
 
 /// Keeps what clients can cause from filling the log: so many lines at once, and `per_second` more each
-/// second; lines beyond are counted, and the next one tells how many.
+/// second; lines beyond are counted, and the next one tells how many. Any thread may use it.
 class LogLimiter {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
@@ -19,6 +20,7 @@ class LogLimiter {
   /// What is to be appended to the line, "" or how many were left out before it; nothing if it is to be left
   /// out itself.
   std::optional<std::string> admit(TimePoint now) {
+    const std::lock_guard lock(mutex_);
     const std::chrono::duration<double> passed = now - last_;
     left_ = std::min(most_, left_ + per_second_ * passed.count());
     last_ = now;
@@ -32,6 +34,7 @@ class LogLimiter {
   }
 
  private:
+  std::mutex mutex_;
   double most_, per_second_, left_;
   TimePoint last_{};
   long left_out_ = 0;

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -13,7 +15,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
-#include <tuple>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -38,16 +40,19 @@ constexpr std::size_t kOtherDescriptors = 32;
 /// have descriptors, once it may have as many as it is allowed to ask for.
 ServerOptions within_means(ServerOptions options) {
   options.names.push_back(options.host);
-  constexpr std::size_t kOthers = kExtraConnections + kOtherDescriptors;
+  // Event loops have three descriptors each.
+  const std::size_t others =
+      (kExtraConnections + 3) * static_cast<std::size_t>(std::max(1, options.network_threads)) +
+      kOtherDescriptors;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return options;
-  const rlim_t wanted = options.max_connections + kOthers;
+  const rlim_t wanted = options.max_connections + others;
   if (limit.rlim_cur < wanted) {
     limit.rlim_cur = std::min(wanted, limit.rlim_max);
     setrlimit(RLIMIT_NOFILE, &limit);
   }
   if (limit.rlim_cur < wanted) {
-    options.max_connections = limit.rlim_cur > kOthers ? limit.rlim_cur - kOthers : 1;
+    options.max_connections = limit.rlim_cur > others ? limit.rlim_cur - others : 1;
     spdlog::warn("at most {} connections: the process may have {} descriptors (ulimit -n)",
                  options.max_connections, limit.rlim_cur);
   }
@@ -55,7 +60,7 @@ ServerOptions within_means(ServerOptions options) {
 }
 
 /// Both or neither can be used.
-std::pair<Access, TlsContext> secrets(const ServerOptions& options) {
+Secrets read_secrets(const ServerOptions& options) {
   if (options.certificate.empty() != options.key.empty())
     throw std::runtime_error("a certificate and its key belong together: --tls-certificate and --tls-key");
   return {options.tokens.empty() ? Access() : Access::read(options.tokens),
@@ -64,23 +69,29 @@ std::pair<Access, TlsContext> secrets(const ServerOptions& options) {
 
 }  // namespace
 
-void check_secrets(const ServerOptions& options) { secrets(options); }
+void check_secrets(const ServerOptions& options) { read_secrets(options); }
 
+/// All but what is said otherwise on the first loop's thread.
 struct Server::Impl {
   Impl(host::Host& host, ServerOptions options) : context(host, within_means(std::move(options))) {}
 
   void listen();
   void accept();
+  void serve(TcpSocket socket, Berth berth);
+  NetworkLoop& least_taken();
   void wait_for_signal();
-  void read_secrets();
+  void read_secrets_anew();
   void stop();
+  void end_if_all_gone();
+  void end();
 
   Context context;
-  // Destroyed before the context, with the sessions that its handlers hold and that use it.
-  asio::io_context io{1};
+  asio::io_context& io = context.loops.front()->io();
+  // Destroyed before the context, whose loops they are on.
   tcp::acceptor acceptor{io};
   asio::signal_set signals{io};
   asio::steady_timer pause{io};
+  std::size_t told = 0;  ///< loops whose viewers know that the server stops
 };
 
 void Server::Impl::listen() {
@@ -104,20 +115,36 @@ void Server::Impl::listen() {
   if (error) throw std::runtime_error("cannot listen at " + where + ": " + error.message());
 }
 
+NetworkLoop& Server::Impl::least_taken() {
+  return **std::min_element(
+      context.loops.begin(), context.loops.end(),
+      [](const auto& one, const auto& other) { return one->connections() < other->connections(); });
+}
+
 void Server::Impl::accept() {
-  acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
-    if (!acceptor.is_open()) return;
-    if (error) {
-      if (const auto more = context.refusals.admit(std::chrono::steady_clock::now()))
-        spdlog::warn("accept: {}{}", error.message(), *more);
-      pause.expires_after(kAcceptPause);
-      pause.async_wait([this](boost::system::error_code cancelled) {
-        if (!cancelled) accept();
-      });
-      return;
-    }
-    start_http_session(context, std::move(socket));
-    accept();
+  auto berth = std::make_shared<Berth>(least_taken());
+  acceptor.async_accept(berth->loop().io().get_executor(),
+                        [this, berth](boost::system::error_code error, TcpSocket socket) {
+                          if (!acceptor.is_open()) return;
+                          if (error) {
+                            if (const auto more = context.refusals.admit(std::chrono::steady_clock::now()))
+                              spdlog::warn("accept: {}{}", error.message(), *more);
+                            pause.expires_after(kAcceptPause);
+                            pause.async_wait([this](boost::system::error_code cancelled) {
+                              if (!cancelled) accept();
+                            });
+                            return;
+                          }
+                          serve(std::move(socket), std::move(*berth));
+                          accept();
+                        });
+}
+
+/// On the thread of its loop, at once if that is this one.
+void Server::Impl::serve(TcpSocket socket, Berth berth) {
+  asio::io_context& loop = berth.loop().io();
+  asio::dispatch(loop, [this, socket = std::move(socket), berth = std::move(berth)]() mutable {
+    start_http_session(context, std::move(berth), std::move(socket));
   });
 }
 
@@ -126,8 +153,8 @@ void Server::Impl::wait_for_signal() {
     if (error) return;
     if (signal == SIGHUP) {
       try {
-        read_secrets();
-        if (!context.options.tokens.empty() || context.tls)
+        read_secrets_anew();
+        if (!context.options.tokens.empty() || !context.options.certificate.empty())
           spdlog::info("signal {}: tokens and certificate read anew", signal);
       } catch (const std::runtime_error& unusable) {
         spdlog::error("signal {}: {}; those of before stay", signal, unusable.what());
@@ -141,25 +168,40 @@ void Server::Impl::wait_for_signal() {
   });
 }
 
-void Server::Impl::read_secrets() { std::tie(context.access, context.tls) = secrets(context.options); }
+void Server::Impl::read_secrets_anew() { context.secrets.set(read_secrets(context.options)); }
 
 void Server::Impl::stop() {
-  if (context.stopping) return;
-  context.stopping = true;
-  context.on_viewers_gone = [this] { io.stop(); };
+  if (context.stopping.exchange(true)) return;
   acceptor.close();
   pause.expires_after(kFarewellTime);
-  pause.async_wait([this](boost::system::error_code) { io.stop(); });
-  if (context.viewers.empty()) return io.stop();
-  // A copy: a session that ends takes itself out of the set.
-  const std::vector<WebsocketSession*> viewers(context.viewers.begin(), context.viewers.end());
-  for (WebsocketSession* viewer : viewers) end_websocket_session(*viewer);
+  pause.async_wait([this](boost::system::error_code) { end(); });
+  // Who comes to a loop after this finds that the server stops.
+  for (const auto& loop : context.loops) {
+    asio::post(loop->io(), [this, &loop = *loop] {
+      end_websocket_sessions(loop);
+      asio::post(io, [this] {
+        ++told;
+        end_if_all_gone();
+      });
+    });
+  }
+}
+
+void Server::Impl::end_if_all_gone() {
+  if (told == context.loops.size() && context.viewers == 0) end();
+}
+
+void Server::Impl::end() {
+  for (const auto& loop : context.loops) loop->io().stop();
 }
 
 Server::Server(host::Host& host, ServerOptions options)
     : impl_(std::make_unique<Impl>(host, std::move(options))) {
-  impl_->read_secrets();
+  impl_->read_secrets_anew();
   impl_->listen();
+  impl_->context.on_viewers_gone = [impl = impl_.get()] {
+    asio::post(impl->io, [impl] { impl->end_if_all_gone(); });
+  };
   // Before anybody is told the address: from then on a signal must end it in order.
   impl_->signals.add(SIGINT);
   impl_->signals.add(SIGTERM);
@@ -168,10 +210,12 @@ Server::Server(host::Host& host, ServerOptions options)
 }
 
 Server::~Server() {
-  impl_->context.makers.join();  // it posts to the io_context
-  // Scenes still run: they must not post to an io_context that is being destroyed.
-  for (WebsocketSession* viewer : impl_->context.viewers) silence_websocket_session(*viewer);
-  // The sessions that are destroyed with it must not stop it.
+  impl_->context.makers.join();  // it posts to the loops
+  // Scenes still run: they must not wake sessions of loops that are being destroyed.
+  for (const auto& loop : impl_->context.loops) {
+    for (WebsocketSession* viewer : loop->viewers) silence_websocket_session(*viewer);
+  }
+  // The sessions that are destroyed with them must not stop it.
   impl_->context.on_viewers_gone = [] {};
 }
 
@@ -182,12 +226,27 @@ std::string Server::address() const {
   std::string host = address.to_string();
   if (address.is_unspecified()) host = "127.0.0.1";
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
-  return (impl_->context.tls ? "https://" : "http://") + host + ":" + std::to_string(port()) + "/";
+  return (impl_->context.secrets.get()->tls ? "https://" : "http://") + host + ":" + std::to_string(port()) +
+         "/";
 }
 
 void Server::run() {
   impl_->accept();
-  impl_->io.run();
+  const auto& loops = impl_->context.loops;
+  std::vector<std::jthread> others;
+  // Without one of its own a loop that has nothing to do ends.
+  std::vector<asio::executor_work_guard<Executor>> work;
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    work.emplace_back(loops[i]->io().get_executor());
+    others.emplace_back([&loop = *loops[i]] { loop.run(); });
+  }
+  // However the first one ends, the others do before they are waited for.
+  struct EndOfAll {
+    Impl& impl;
+    ~EndOfAll() { impl.end(); }
+  };
+  const EndOfAll all{*impl_};
+  loops.front()->run();
 }
 
 void Server::stop() {

@@ -25,6 +25,7 @@ struct ServerOptions {
   /// The certificate chain and its key (PEM); both or neither. With them, TLS is spoken at the same port, and
   /// without it only with this machine.
   std::filesystem::path certificate, key;
+  int network_threads = 1;  ///< among which connections are spread
   /// Listens to the network without tokens, and speaks to it without TLS where there is a certificate.
   bool insecure = false;
 };
@@ -47,9 +48,10 @@ class Server {
   /// Where the page is, for people on this machine: "http://127.0.0.1:8080/", "https:" with a certificate.
   std::string address() const;
 
-  /// Serves, on the calling thread, until stop() or SIGTERM or SIGINT. Viewers are told and have 3 seconds to
-  /// go. A second signal ends the process at once. SIGHUP reads tokens and certificate anew, for connections
-  /// that come after it; where one cannot be used, those of before stay.
+  /// Serves, on the calling thread and ServerOptions::network_threads - 1 more, until stop() or SIGTERM or
+  /// SIGINT. Viewers are told and have 3 seconds to go. A second signal ends the process at once. SIGHUP
+  /// reads tokens and certificate anew, for connections that come after it; where one cannot be used, those
+  /// of before stay.
   void run();
   /// May be called from any thread.
   void stop();

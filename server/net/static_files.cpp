@@ -81,8 +81,10 @@ std::optional<StaticFiles::File> StaticFiles::find(std::string_view target) {
   if (!fs::is_regular_file(path, error)) return std::nullopt;
   const auto changed = fs::last_write_time(path, error);
   if (error) return std::nullopt;
-  if (const auto known = cache_.find(path); known != cache_.end() && known->second.changed == changed) {
-    return known->second.file;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = cache_.find(path); known != cache_.end() && known->second.changed == changed)
+      return known->second.file;
   }
   std::ifstream stream(path, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(stream), {}};
@@ -92,6 +94,7 @@ std::optional<StaticFiles::File> StaticFiles::find(std::string_view target) {
       '"' + std::to_string(changed.time_since_epoch().count()) + '-' + std::to_string(content.size()) + '"';
   file.media_type = media_type(path);
   file.content = std::make_shared<const std::string>(std::move(content));
+  const std::lock_guard lock(mutex_);
   cache_[path] = {changed, file};
   return file;
 }

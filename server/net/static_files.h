@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,7 +16,8 @@ std::string_view media_type(const std::filesystem::path& file);
 /// directory. Nothing for a target that could lead out of the root or to a hidden file.
 std::optional<std::filesystem::path> path_of_target(std::string_view target);
 
-/// The files of one directory, read on demand, kept in memory until they change on disk.
+/// The files of one directory, read on demand, kept in memory until they change on disk. Any thread may use
+/// it.
 class StaticFiles {
  public:
   struct File {
@@ -35,6 +37,7 @@ class StaticFiles {
     File file;
   };
   std::filesystem::path root_;
+  std::mutex mutex_;  // of the cache
   std::map<std::filesystem::path, Cached> cache_;
 };
 

@@ -5,19 +5,33 @@
 #include <optional>
 #include <utility>
 // Boost 1.74 needs <utility> before it.
+#include <boost/asio/basic_waitable_timer.hpp>
 #include <boost/asio/compose.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/socket_base.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/ssl/stream.hpp>
+#include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/error.hpp>
+#include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 
 namespace weft::net {
 
+/// What connections run on. Named, where Boost's own `tcp_stream` and `steady_timer` find it out at each
+/// operation, which takes as long as a small message's way through all layers.
+using Executor = boost::asio::io_context::executor_type;
+using TcpSocket = boost::asio::basic_stream_socket<boost::asio::ip::tcp, Executor>;
+using TcpStream =
+    boost::beast::basic_stream<boost::asio::ip::tcp, Executor, boost::beast::unlimited_rate_policy>;
+using SteadyTimer =
+    boost::asio::basic_waitable_timer<std::chrono::steady_clock,
+                                      boost::asio::wait_traits<std::chrono::steady_clock>, Executor>;
+
 class Transport {
  public:
-  using next_layer_type = boost::beast::tcp_stream;
+  using next_layer_type = TcpStream;
   using executor_type = next_layer_type::executor_type;
   using error_code = boost::beast::error_code;
   using Tls = boost::asio::ssl::stream<next_layer_type&>;

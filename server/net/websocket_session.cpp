@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/buffers_suffix.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
@@ -14,6 +14,7 @@
 
 #include "host/connection.h"
 #include "net/gated_stream.h"
+#include "net/message_head.h"
 
 namespace weft::net {
 
@@ -37,7 +38,7 @@ constexpr std::uint16_t kTooManyMessages = 4003, kDoesNotRead = 4004, kSceneEnde
 
 /// Frames wait here, where newer ones replace them, and not in the kernel, where they grow old: 4 MB
 /// otherwise.
-void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
+void keep_kernel_queue_short(TcpSocket& socket) {
   error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::send_buffer_size(64 * 1024), ignored);
@@ -51,30 +52,32 @@ void keep_kernel_queue_short(asio::ip::tcp::socket& socket) {
 /// has for it, one message at a time.
 class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
  public:
-  WebsocketSession(Context& context, ConnectionPool::Place place, Transport stream,
+  WebsocketSession(Context& context, Berth berth, ConnectionPool::Place place, Transport stream,
                    std::shared_ptr<host::SceneRunner> scene, protocol::Role role)
       : context_(context),
+        berth_(std::move(berth)),
         place_(std::move(place)),
         ws_(std::move(stream), context.host.limits().messages_per_second),
         read_pause_(ws_.get_executor()),
         close_deadline_(ws_.get_executor()),
         way_timer_(ws_.get_executor()),
         connection_(context.host, std::move(scene), role, context.options.version) {
-    context_.viewers.insert(this);
+    berth_.loop().viewers.insert(this);
+    ++context_.viewers;
   }
 
   ~WebsocketSession() {
     // The scene may keep the viewer a moment longer than the server's io_context lives.
     viewer().on_wake(nullptr);
-    context_.viewers.erase(this);
-    if (context_.stopping && context_.viewers.empty()) context_.on_viewers_gone();
+    berth_.loop().viewers.erase(this);
+    if (--context_.viewers == 0 && context_.stopping) context_.on_viewers_gone();
   }
 
   WebsocketSession(const WebsocketSession&) = delete;
   WebsocketSession& operator=(const WebsocketSession&) = delete;
 
   void start(const HttpRequest& request) {
-    beast::tcp_stream& tcp = beast::get_lowest_layer(ws_);
+    TcpStream& tcp = beast::get_lowest_layer(ws_);
     tcp.expires_never();  // the WebSocket has its own time limits
     keep_kernel_queue_short(tcp.socket());
     error_code ignored;
@@ -85,16 +88,13 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
       response.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
       response.set(http::field::server, "weft");
     }));
-    ws_.auto_fragment(false);
+    ws_.next_layer().show_texts_to(
+        [this](std::string_view text) { return connection_.take_plain_ack(text); });
     ws_.read_message_max(context_.host.limits().message_bytes);
     // Called as long as messages are read, which holds the session.
     ws_.control_callback(
         [this](websocket::frame_type kind, beast::string_view text) { on_control(kind, text); });
-    connection_.viewer().on_wake([weak = weak_from_this(), executor = ws_.get_executor()] {
-      asio::post(executor, [weak] {
-        if (const auto self = weak.lock()) self->pump();
-      });
-    });
+    connection_.viewer().on_wake([weak = weak_from_this(), &loop = berth_.loop()] { loop.wake(weak); });
     ws_.async_accept(request, [self = shared_from_this()](error_code error) { self->on_accept(error); });
   }
 
@@ -109,6 +109,20 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
       if (!error && self) beast::get_lowest_layer(self->ws_).close();
     });
     pump();
+  }
+
+  /// Writes what waits, one message at a time, unless one is being written.
+  void pump() {
+    if (!closing_ && viewer().overflowed()) cut_off(kDoesNotRead, "control messages are not read");
+    while (accepted_ && !writing_ && !close_sent_) {
+      if (closing_ && !drain_) return send_close();
+      auto next = viewer().take();
+      while (closing_ && next && !next->text) next = viewer().take();  // no frames any more
+      if (closing_ && !next) return send_close();
+      if (!next) return;
+      outgoing_ = std::move(*next);
+      write_outgoing();
+    }
   }
 
   host::Viewer& viewer() { return connection_.viewer(); }
@@ -191,36 +205,35 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
     close(code, reason, false);
   }
 
-  /// Writes the next message, unless one is being written.
-  void pump() {
-    if (!closing_ && viewer().overflowed()) cut_off(kDoesNotRead, "control messages are not read");
-    if (!accepted_ || writing_ || close_sent_) return;
-    if (closing_ && !drain_) return send_close();
-    auto next = viewer().take();
-    while (closing_ && next && !next->text) next = viewer().take();  // no frames any more
-    if (closing_ && !next) return send_close();
-    if (!next) return;
-    outgoing_ = std::move(*next);
-    count_outgoing();
-    writing_ = true;
-    std::vector<asio::const_buffer> buffers;
-    ws_.text(outgoing_.text != nullptr);
+  /// Most often all of it goes out at once, and nothing is left to wait for.
+  void write_outgoing() {
+    buffers_.assign(1, {});  // the head, when it is known
     if (outgoing_.text) {
-      buffers.push_back(asio::buffer(*outgoing_.text));
+      buffers_.push_back(asio::buffer(*outgoing_.text));
     } else {
-      for (const host::Record& record : outgoing_.frame->records) buffers.push_back(asio::buffer(*record));
+      for (const host::Record& record : outgoing_.frame->records) buffers_.push_back(asio::buffer(*record));
     }
-    ws_.async_write(buffers,
-                    [self = shared_from_this()](error_code error, std::size_t) { self->on_written(error); });
+    const std::size_t payload = asio::buffer_size(buffers_);
+    count_outgoing(payload);
+    head_ = {outgoing_.text ? MessageHead::Kind::text : MessageHead::Kind::binary, payload};
+    buffers_.front() = asio::buffer(head_.bytes().data(), head_.bytes().size());
+    const std::size_t sent = ws_.next_layer().write_at_once(buffers_);
+    if (sent == head_.bytes().size() + payload) {
+      outgoing_ = {};
+      return;
+    }
+    writing_ = true;
+    beast::buffers_suffix<std::vector<asio::const_buffer>> rest(buffers_);
+    rest.consume(sent);
+    ws_.next_layer().async_write_rest(
+        rest, [self = shared_from_this()](error_code error, std::size_t) { self->on_written(error); });
   }
 
-  void count_outgoing() {
+  void count_outgoing(std::size_t bytes) {
     host::Metrics& metrics = context_.host.metrics();
     if (outgoing_.text) {
-      metrics.sent_text(outgoing_.text->size());
+      metrics.sent_text(bytes);
     } else {
-      std::size_t bytes = 0;
-      for (const host::Record& record : outgoing_.frame->records) bytes += record->size();
       metrics.sent_frame(bytes);
     }
     const std::uint64_t dropped = viewer().dropped();
@@ -241,38 +254,59 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   }
 
   Context& context_;
+  Berth berth_;
   ConnectionPool::Place place_;
   websocket::stream<GatedStream> ws_;
-  asio::steady_timer read_pause_;
-  asio::steady_timer close_deadline_;
-  asio::steady_timer way_timer_;
+  SteadyTimer read_pause_;
+  SteadyTimer close_deadline_;
+  SteadyTimer way_timer_;
   std::string peer_;
   beast::flat_buffer incoming_;
-  host::Outgoing outgoing_;    ///< what is being written
-  std::uint64_t dropped_ = 0;  ///< frames, as far as they are counted
+  host::Outgoing outgoing_;                  ///< what is being written
+  MessageHead head_;                         ///< of it
+  std::vector<asio::const_buffer> buffers_;  ///< head, and what follows it
+  std::uint64_t dropped_ = 0;                ///< frames, as far as they are counted
   std::optional<websocket::close_reason> closing_;
   bool accepted_ = false, writing_ = false, drain_ = false, close_sent_ = false;
   host::Connection connection_;
 };
 
-void start_websocket_session(Context& context, ConnectionPool::Place place, Transport stream,
+namespace {
+
+/// A session that ends takes itself out of the set.
+std::vector<WebsocketSession*> copy_of_viewers(const NetworkLoop& loop) {
+  return {loop.viewers.begin(), loop.viewers.end()};
+}
+
+}  // namespace
+
+void start_websocket_session(Context& context, Berth berth, ConnectionPool::Place place, Transport stream,
                              const HttpRequest& request, std::shared_ptr<host::SceneRunner> scene,
                              protocol::Role role) {
-  std::make_shared<WebsocketSession>(context, std::move(place), std::move(stream), std::move(scene), role)
+  std::make_shared<WebsocketSession>(context, std::move(berth), std::move(place), std::move(stream),
+                                     std::move(scene), role)
       ->start(request);
 }
 
-void end_websocket_session(WebsocketSession& session) {
-  session.viewer().send(host::make_text(protocol::notice_text("shutdown", "the server stops")));
-  session.close(websocket::close_code::going_away, "the server stops", true);
-}
-
-void end_websocket_sessions_in(Context& context, const host::SceneRunner& scene) {
-  const std::vector<WebsocketSession*> viewers(context.viewers.begin(), context.viewers.end());
-  for (WebsocketSession* viewer : viewers) {
-    if (&viewer->scene() == &scene) viewer->close(kSceneEnded, "the scene was ended", true);
+void end_websocket_sessions(NetworkLoop& loop) {
+  const host::Text notice = host::make_text(protocol::notice_text("shutdown", "the server stops"));
+  for (WebsocketSession* viewer : copy_of_viewers(loop)) {
+    viewer->viewer().send(notice);
+    viewer->close(websocket::close_code::going_away, "the server stops", true);
   }
 }
+
+void end_websocket_sessions_in(Context& context, std::shared_ptr<const host::SceneRunner> scene) {
+  for (const auto& loop : context.loops) {
+    asio::post(loop->io(), [&loop = *loop, scene] {
+      for (WebsocketSession* viewer : copy_of_viewers(loop)) {
+        if (&viewer->scene() == scene.get()) viewer->close(kSceneEnded, "the scene was ended", true);
+      }
+    });
+  }
+}
+
+void send_what_waits(WebsocketSession& session) { session.pump(); }
 
 void silence_websocket_session(WebsocketSession& session) { session.viewer().on_wake(nullptr); }
 

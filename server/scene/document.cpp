@@ -1,6 +1,9 @@
 #include "scene/document.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
 #include <utility>
 
 namespace weft::scene {
@@ -108,6 +111,19 @@ class TreeBuilder final : public nlohmann::json_sax<json> {
 };
 
 }  // namespace
+
+std::optional<std::string> read_text_file(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::array<char, 65536> chunk{};
+  do {
+    file.read(chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file && text.size() <= kMaxTextBytes);
+  if (!file && !file.eof()) return std::nullopt;
+  return text;
+}
 
 std::string pointer_token(std::string_view token) {
   std::string text = "/";

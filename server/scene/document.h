@@ -3,6 +3,7 @@
 /// depth.
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,10 @@ struct Document {
 
 /// Never throws. At most kMaxTextBytes and kMaxDepth levels are read.
 Document read_document(std::string_view text);
+
+/// The file's bytes, and not many beyond kMaxTextBytes of a larger one, which read_document() then refuses: a
+/// device that never ends must not fill memory. Nothing, and errno says why, if it cannot be read.
+std::optional<std::string> read_text_file(const std::string& path);
 
 /// `token` as a part of a JSON pointer: "/" followed by the token, ~ and / escaped.
 std::string pointer_token(std::string_view token);

@@ -123,11 +123,30 @@ bool encloses_something(const TriangleList& surface) {
   return std::abs(enclosed_volume(surface)) > kLeastVolume * size * size * size;
 }
 
+/// That the time all take, which grows with the cube of each one's edges, is within bounds.
+void check_work(const std::vector<Border>& borders) {
+  constexpr double kMost =
+      double{kMostLargestHoles} * double{kMostHoleEdges} * double{kMostHoleEdges} * double{kMostHoleEdges};
+  double work = 0;
+  std::size_t edges = 0;
+  for (const Border& border : borders) {
+    const auto size = static_cast<double>(border.size());
+    work += size * size * size;
+    edges += border.size();
+  }
+  if (work > kMost)
+    throw std::invalid_argument("its " + std::to_string(borders.size()) + " holes have " +
+                                std::to_string(edges) + " edges and are too much to fill: as much as " +
+                                std::to_string(kMostLargestHoles) + " of " + std::to_string(kMostHoleEdges) +
+                                " edges is allowed (the time grows with the cube of a hole's edges)");
+}
+
 }  // namespace
 
 FilledSurface fill_holes(const TriangleList& list) {
   FilledSurface filled{welded(list), 0};
   const std::vector<Border> borders = borders_of(filled.surface);
+  check_work(borders);
   for (const Border& border : borders) {
     std::vector<std::array<int, 3>> filling;
     if (fill_by_ears(filled.surface, border, filling)) {

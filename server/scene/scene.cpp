@@ -1,11 +1,9 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "scene/document.h"
@@ -16,7 +14,7 @@
 namespace weft::scene {
 namespace {
 
-/// A file's name without folders and extension, as a scene's name: [a-z0-9-]{1,64}.
+/// A file's name without folders and extension, as a scene's name: 1 to kLongestSceneName of a-z, 0-9 and -.
 std::string name_of_file(const std::string& file) {
   std::string name;
   for (const char c : std::filesystem::path(file).stem().string()) {
@@ -24,7 +22,7 @@ std::string name_of_file(const std::string& file) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
     name += upper ? static_cast<char>(c - 'A' + 'a') : plain ? c : '-';
   }
-  name.resize(std::min<std::size_t>(name.size(), 64));
+  name.resize(std::min(name.size(), kLongestSceneName));
   return name.empty() ? "scene" : name;
 }
 
@@ -73,19 +71,13 @@ Result load(const std::string& preset_or_file, const std::vector<std::string>& o
   for (const Preset& preset : presets()) {
     if (preset.name == preset_or_file) return read_text(preset.text, preset.name, {}, overrides);
   }
-  std::ifstream file(preset_or_file, std::ios::binary);
-  std::string text;
-  std::array<char, 65536> chunk{};
-  do {  // not beyond what is allowed: a device that never ends must not fill memory
-    file.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-  } while (file && text.size() <= kMaxTextBytes);
-  if (!file && !file.eof()) {
+  const auto text = read_text_file(preset_or_file);
+  if (!text) {
     return std::vector<Problem>{{"", preset_or_file + ": " + std::strerror(errno) +
                                          " (neither a file nor a preset; the presets are " +
                                          preset_names(preset_or_file) + ")"}};
   }
-  return read_text(text, name_of_file(preset_or_file), std::filesystem::path(preset_or_file).parent_path(),
+  return read_text(*text, name_of_file(preset_or_file), std::filesystem::path(preset_or_file).parent_path(),
                    overrides);
 }
 

@@ -13,6 +13,9 @@
 
 namespace weft::scene {
 
+/// Characters that a scene's name may have, which is a part of URLs.
+inline constexpr std::size_t kLongestSceneName = 64;
+
 /// One thing wrong with a scene file.
 struct Problem {
   std::string path;     ///< JSON pointer, for example /cloths/0/material/density; empty: the whole file
@@ -28,8 +31,8 @@ struct Quality {
 };
 
 struct Scene {
-  std::string name;                ///< preset or file name without extension: [a-z0-9-]{1,64}
-  std::string title;               ///< one line for people
+  std::string name;   ///< preset or file name without extension: a-z, 0-9 and -, up to kLongestSceneName
+  std::string title;  ///< one line for people
   std::vector<std::string> notes;  ///< what was chosen, and why
   double camera_distance = 5.0;    ///< a viewer's distance until it says its own, m
   Vec3 camera_eye{0.0, 0.0, 5.0};  ///< where a page puts its camera at first, m

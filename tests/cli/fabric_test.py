@@ -47,7 +47,16 @@ class Fabric(unittest.TestCase):
         result = weft("fabric", "fit", "--density", "0.1", "--emt-warp", "5")
         self.assertEqual(result.returncode, 2)
         self.assertIn("/emt_warp: is 5.0; must be a number from 0.0001 to 2", result.stderr)
-        self.assertIn("not a JSON object", weft("fabric", "fit", "/dev/null").stderr)
+        for text, why in [("", "not JSON"), ("[1]", "is not a JSON object of numbers"), ("[" * 17, "nested deeper than 16 levels"),
+                          ('{"density": 1e999}', "/density: is 1e999; allowed: finite numbers")]:
+            with self.subTest(text), tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+                file.write(text)
+                file.flush()
+                result = weft("fabric", "fit", file.name)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(why, result.stderr)
+        self.assertIn("/nowhere.json: cannot be read: No such file", weft("fabric", "fit", "/nowhere.json").stderr)
+        self.assertIn("at most 33554432 are allowed", weft("fabric", "fit", "/dev/zero").stderr)
         self.assertEqual(weft("fabric", "test", "tin").returncode, 2)
 
 

@@ -129,6 +129,25 @@ TEST_F(SceneWriterTest, MddHasTimesAndAllPointsBigEndian) {
   EXPECT_EQ(second, one_cell(4, 0.5, 1).positions);
 }
 
+// A scene that begins anew goes on in the file when it is past what the file has.
+TEST_F(SceneWriterTest, MddTimesAscend) {
+  write("reset.mdd",
+        {one_cell(3, 0, 0), one_cell(4, 0.5, 1), one_cell(0, 0, 2), one_cell(4, 0.5, 3), one_cell(5, 1, 4)});
+  const std::string file = bytes("reset.mdd");
+  ASSERT_EQ(file.size(), 8u + 3 * 4 + 3 * 4 * 3 * 4);
+  EXPECT_EQ(file.substr(0, 20),
+            std::string("\0\0\0\3\0\0\0\4\0\0\0\0\x3f\0\0\0\x3f\x80\0\0", 20));  // 0, 0.5, 1
+}
+
+TEST_F(SceneWriterTest, NothingThatIsBesideAFileIsLost) {
+  for (const std::string name : {"a.mdd", "a.glb", "a.usda"}) {
+    const std::string other = path(name + ".spill");
+    std::ofstream(other) << "mine";
+    write(name, {one_cell(0, 0, 0), one_cell(1, 0.5, 1)});
+    EXPECT_EQ(bytes(name + ".spill"), "mine");
+  }
+}
+
 // USD's text format, attributes as UsdGeomMesh and UsdGeomXformable name them.
 TEST_F(SceneWriterTest, UsdaHasSamplesOfCloths) {
   write("mesh.usda", {one_cell(0, 0, 0), one_cell(2, 2.0 / 60, 0.5f)});

@@ -89,34 +89,34 @@ void connection(Input input) {
   net::ServerOptions options;
   options.version = "0";
   net::Context context(host, options);
-  {
-    boost::asio::io_context io(1);
-    std::array<int, 2> ends{};
-    require(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0, "there are sockets");
-    Client client(ends[0]);
-    boost::asio::ip::tcp::socket socket(io);
-    socket.assign(boost::asio::ip::tcp::v4(), ends[1]);
-    net::start_http_session(context, std::move(socket));
+  net::NetworkLoop& loop = *context.loops.front();
+  boost::asio::io_context& io = loop.io();
+  std::array<int, 2> ends{};
+  require(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0, "there are sockets");
+  Client client(ends[0]);
+  net::TcpSocket socket(io);
+  socket.assign(boost::asio::ip::tcp::v4(), ends[1]);
+  net::start_http_session(context, net::Berth(loop), std::move(socket));
 
-    const Input head = head_of(input);
-    Input rest = input.subspan(head.size());
-    client.send(head);
-    run_until_idle(io);
-    bool ended = false;
-    const auto deadline = std::chrono::steady_clock::now() + kLongest;
-    while (context.connections.taken() > 0) {
-      require(std::chrono::steady_clock::now() < deadline, "a connection ends soon after its client");
-      client.take();
-      rest = rest.subspan(client.send(rest));
-      if (rest.empty() && !ended) {
-        client.end();
-        ended = true;
-      }
-      run_until_idle(io);
-      io.run_one_for(1ms);
+  const Input head = head_of(input);
+  Input rest = input.subspan(head.size());
+  client.send(head);
+  run_until_idle(io);
+  bool ended = false;
+  const auto deadline = std::chrono::steady_clock::now() + kLongest;
+  while (context.connections.taken() > 0) {
+    require(std::chrono::steady_clock::now() < deadline, "a connection ends soon after its client");
+    client.take();
+    rest = rest.subspan(client.send(rest));
+    if (rest.empty() && !ended) {
+      client.end();
+      ended = true;
     }
-    context.makers.join();
+    run_until_idle(io);
+    io.run_one_for(1ms);
   }
+  require(loop.connections() == 0, "the loop has as many connections as there are");
+  context.makers.join();
 }
 
 }  // namespace weft::fuzz

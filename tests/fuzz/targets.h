@@ -22,6 +22,7 @@ Target connection;  ///< all that is sent on one connection: HTTP, WebSocket, me
 Target tokens;      ///< the file of --tokens
 Target settings;    ///< the file of --config
 Target recordings;  ///< a file of --record
+Target fabrics;     ///< a file of `weft fabric fit`
 
 inline std::string text_of(Input input) { return {input.begin(), input.end()}; }
 

@@ -6,6 +6,7 @@ words_of() {
     messages | connection) quoted protocol/spec/operations.json ;;
     scenes) quoted server/scene/scene.schema.json ;;
     tokens) printf '"%s"\n' tokens without_token role token sha256 name view control admin ;;
+    fabrics) quoted server/fabric/fit.cpp ;;
     meshes) printf '"\\x0a%s "\n' v vt vn f l p t g o s vw usemtl mtllib ;;
     motions)
       printf '"%s"\n' HIERARCHY ROOT JOINT OFFSET CHANNELS 'End Site' MOTION Frames: 'Frame Time:' Xposition Zrotation Yrotation

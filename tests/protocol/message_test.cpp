@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
+#include "protocol/plain_ack.h"
 #include "vectors.h"
 
 namespace weft::protocol {
@@ -155,6 +157,53 @@ TEST(Message, ServerTextsAreTheContracts) {
 // A client's text may come back in an error: not even broken UTF-8 may make writing it fail.
 TEST(Message, ErrorTextSurvivesBrokenUtf8) {
   EXPECT_EQ(json::parse(error_text({1, "not_found", "/scene", "no \xff"}))["message"], "no \uFFFD");
+}
+
+/// The frame that parse_request() finds acknowledged, if it is a plain acknowledgement without an id.
+std::optional<std::uint32_t> acknowledged(const std::string& text) {
+  const auto parsed = parse_request(text);
+  const auto* request = std::get_if<Request>(&parsed);
+  const auto* ack = request && !request->id ? std::get_if<Ack>(&request->command) : nullptr;
+  return ack ? std::optional(ack->f) : std::nullopt;
+}
+
+TEST(Message, APlainAcknowledgementIsReadAsTheParserReadsIt) {
+  for (const std::string text : {R"({"op":"ack","f":120})", R"({"op": "ack", "f": 120})",
+                                 " {\t\"op\" :\r\n\"ack\" , \"f\": 120 } \n"}) {
+    EXPECT_EQ(read_plain_ack(text), 120U) << text;
+    EXPECT_EQ(acknowledged(text), 120U) << text;
+  }
+  EXPECT_EQ(read_plain_ack(R"({"op":"ack","f":0})"), 0U);
+  EXPECT_EQ(read_plain_ack(R"({"op":"ack","f":4294967295})"), 4294967295U);
+  for (const std::string text :
+       {R"({"op":"ack","f":4294967296})", R"({"op":"ack","f":-1})", R"({"op":"ack","f":007})",
+        R"({"op":"ack","f":1.5})", R"({"op":"ack","f":})", R"({"op":"ack","f":1)", R"({"op":"ack","f":1}})",
+        R"({"op":"ack","f":1,"f":2})", R"({"op":"ping","t":1})", R"({"op":"ack"})", "", "{", "ack"}) {
+    EXPECT_EQ(read_plain_ack(text), std::nullopt) << text;
+    EXPECT_EQ(acknowledged(text), std::nullopt) << text;
+  }
+  // What the parser takes and is not plain is the parser's.
+  EXPECT_EQ(read_plain_ack(R"({"f":1,"op":"ack"})"), std::nullopt);
+  EXPECT_EQ(read_plain_ack(R"({"op":"ack","f":1,"id":2})"), std::nullopt);
+  EXPECT_EQ(read_plain_ack(R"({"op":"ack","f":1e0})"), std::nullopt);
+}
+
+TEST(Message, NoMutationOfAnAcknowledgementIsReadOtherwiseThanByTheParser) {
+  constexpr int kMutations = 20000;
+  constexpr std::string_view kLikely = "{}[]\",:0123456789eE+-. \t\nackopf\\";
+  const std::string original = R"({"op": "ack", "f": 120})";
+  std::mt19937 random(20261128);
+  int plain = 0;
+  for (int i = 0; i < kMutations; ++i) {
+    std::string text = original;
+    for (std::size_t changes = 1 + random() % 3; changes > 0; --changes)
+      text[random() % text.size()] = kLikely[random() % kLikely.size()];
+    const auto frame = read_plain_ack(text);
+    plain += frame.has_value();
+    if (!frame) continue;
+    ASSERT_EQ(acknowledged(text), frame) << text;
+  }
+  EXPECT_GT(plain, 100);  // such as other digits
 }
 
 // Whatever a mutation makes of a message, parsing gives a request or an error, and never throws.

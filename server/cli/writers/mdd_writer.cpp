@@ -11,6 +11,9 @@ class MddWriter final : public MeshWriter {
   explicit MddWriter(const std::string& path) : file_(path), points_(path) {}
 
   void write(const MeshFrame& frame) override {
+    const auto time = static_cast<float>(frame.time);
+    // A cache's times ascend: of a scene that stands still, or begins anew, one frame is enough.
+    if (!times_.empty() && !(time > times_.back())) return;
     if (times_.empty()) {
       rows_ = frame.rows;
       cols_ = frame.cols;
@@ -21,7 +24,7 @@ class MddWriter final : public MeshWriter {
     for (std::size_t i = 0; i < same.positions.size(); ++i)
       append_bytes_big(bytes, static_cast<float>(same.coordinate(i)));
     points_.write(bytes);
-    times_.push_back(static_cast<float>(frame.time));
+    times_.push_back(time);
   }
 
   void finish() override {

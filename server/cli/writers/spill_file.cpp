@@ -1,8 +1,11 @@
 #include "cli/writers/spill_file.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
@@ -16,12 +19,18 @@ namespace {
 }  // namespace
 
 SpillFile::SpillFile(const std::string& path) : path_(path) {
-  // Several may be for one file: each has lost its name before the next one gets it.
-  const std::string name = path + ".spill";
+  // A name that no file has: nothing that is there is lost.
+  std::string name = path + ".spill-XXXXXX";
   errno = 0;
-  stream_.open(name, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
-  if (!stream_) spill_failed(path, ": cannot be written: ");
-  std::filesystem::remove(name);
+  const int made = mkstemp(name.data());
+  if (made < 0) spill_failed(path, ": cannot be written: ");
+  stream_.open(name, std::ios::binary | std::ios::in | std::ios::out);
+  const bool opened = stream_.is_open();
+  const int why = errno;
+  close(made);
+  unlink(name.c_str());
+  errno = why;
+  if (!opened) spill_failed(path, ": cannot be written: ");
 }
 
 void SpillFile::write(std::string_view bytes) {

@@ -55,7 +55,16 @@ void CEREAL_SAVE_FUNCTION_NAME(StateWriter& archive, const T& value) {
 }
 template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
 void CEREAL_LOAD_FUNCTION_NAME(StateReader& archive, T& value) {
-  archive.read(&value, sizeof value);
+  if constexpr (std::is_same_v<T, bool>) {
+    // To look at a bool that is neither true nor false is undefined.
+    unsigned char byte = 0;
+    static_assert(sizeof byte == sizeof value);
+    archive.read(&byte, sizeof byte);
+    if (byte > 1) throw BadState("the state has a yes or no that is neither");
+    value = byte == 1;
+  } else {
+    archive.read(&value, sizeof value);
+  }
 }
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(StateWriter& archive, const cereal::NameValuePair<T>& named) {

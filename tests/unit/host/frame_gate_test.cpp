@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace weft::net {
 namespace {
@@ -63,6 +64,58 @@ TEST(FrameGate, HandsOnWhatIsWithinTheRules) {
     EXPECT_EQ(through(gate, bytes, piece), bytes) << piece;
     EXPECT_FALSE(gate.shut());
   }
+}
+
+/// Shows short texts to a listener who takes those that begin with "ack".
+struct Listener {
+  std::vector<std::string> heard;
+  explicit Listener(FrameGate& gate) {
+    gate.show_texts_to([this](std::string_view said) {
+      heard.emplace_back(said);
+      return said.starts_with("ack");
+    });
+  }
+};
+
+TEST(FrameGate, WhatIsTakenAsideIsNotHandedOn) {
+  FrameGate gate(kFramesPerSecond, kStart);
+  Listener listener(gate);
+  const std::string bytes = text("ack 1") + text("camera") + text("ack 2") + ping() + text("ack 3");
+  EXPECT_EQ(through(gate, bytes, bytes.size()), text("camera") + ping());
+  EXPECT_EQ(listener.heard, (std::vector<std::string>{"ack 1", "camera", "ack 2", "ack 3"}));
+  // All of it handed on or taken: what comes next stands where it should.
+  EXPECT_EQ(through(gate, text("next"), 100), text("next"));
+}
+
+TEST(FrameGate, OnlyAWholeShortMaskedTextIsTakenAside) {
+  std::string unmasked = text("ack");
+  unmasked[1] = 3;
+  unmasked.erase(2, 4);
+  for (const std::string& bytes :
+       {frame(0x82, "ack"), frame(0x01, "ack") + frame(0x80, "ack"), frame(0x89, "ack"), unmasked,
+        text("ack" + std::string(123, '.')), frame(0x01, "b") + text("ack") /* within another message */}) {
+    FrameGate gate(kFramesPerSecond, kStart);
+    Listener listener(gate);
+    EXPECT_EQ(through(gate, bytes, bytes.size()), bytes);
+    EXPECT_EQ(listener.heard, std::vector<std::string>());
+  }
+  // One that comes in two parts has been handed on in part.
+  FrameGate gate(kFramesPerSecond, kStart);
+  Listener listener(gate);
+  EXPECT_EQ(through(gate, text("ack"), 7), text("ack"));
+  EXPECT_EQ(listener.heard, std::vector<std::string>());
+  // 125 bytes are the longest (RFC 6455 has their length in one byte).
+  const std::string longest = "ack" + std::string(122, '.');
+  EXPECT_EQ(through(gate, text(longest), 1000), "");
+  EXPECT_EQ(listener.heard, std::vector<std::string>{longest});
+}
+
+TEST(FrameGate, AfterAMessageInFragmentsTextsAreTakenAsideAgain) {
+  FrameGate gate(kFramesPerSecond, kStart);
+  Listener listener(gate);
+  const std::string message = frame(0x01, "b") + ping() + frame(0x80, "c");
+  EXPECT_EQ(through(gate, message + text("ack"), 1000), message);
+  EXPECT_EQ(listener.heard, std::vector<std::string>{"ack"});
 }
 
 TEST(FrameGate, ControlFramesAndFragmentsBeyondTheRateAre1008) {

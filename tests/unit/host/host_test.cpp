@@ -5,10 +5,12 @@
 #include <atomic>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
 #include "host/connection.h"
+#include "host/wake_list.h"
 
 namespace weft::host::test {
 namespace {
@@ -45,6 +47,59 @@ TEST(HostOfScenes, WelcomesThenDescribesTheSceneThenSendsFrames) {
   EXPECT_EQ(guest.reader.texts[0].at("op"), "welcome");
   EXPECT_EQ(guest.reader.texts[1].at("op"), "scene");
   EXPECT_EQ(guest.reader.texts[1].at("name"), "hung");
+}
+
+/// Somebody who is woken: his rounds are counted by one thread alone.
+struct Sleeper {
+  int wakened = 0;
+};
+
+TEST(WakeList, WhoWakesTheFirstHasTheRoundToMake) {
+  WakeList<Sleeper> list;
+  const auto one = std::make_shared<Sleeper>(), other = std::make_shared<Sleeper>();
+  EXPECT_TRUE(list.add(one));
+  EXPECT_FALSE(list.add(other));
+  {
+    const auto gone = std::make_shared<Sleeper>();
+    EXPECT_FALSE(list.add(gone));
+  }
+  const auto wake = [&](Sleeper& sleeper) {
+    ++sleeper.wakened;
+    if (&sleeper != one.get()) return;
+    EXPECT_TRUE(list.add(other)) << "the list is free while the round is made";
+  };
+  list.go_round(wake);
+  EXPECT_EQ(one->wakened, 1);
+  EXPECT_EQ(other->wakened, 1) << "the second time it is the next round's";
+  list.go_round(wake);
+  EXPECT_EQ(other->wakened, 2);
+}
+
+// Many threads wake, one goes round: nobody who was woken sleeps on.
+TEST(WakeList, NobodyWhoIsWokenIsForgotten) {
+  constexpr int kSleepers = 50, kWakers = 3, kTimes = 2000;
+  WakeList<Sleeper> list;
+  std::vector<std::shared_ptr<Sleeper>> sleepers;
+  for (int i = 0; i < kSleepers; ++i) sleepers.push_back(std::make_shared<Sleeper>());
+  std::atomic<int> rounds = 0, done = 0;
+  std::vector<std::jthread> wakers;
+  for (int waker = 0; waker < kWakers; ++waker) {
+    wakers.emplace_back([&, waker] {
+      for (int i = 0; i < kTimes; ++i) {
+        if (list.add(sleepers[static_cast<std::size_t>((i + waker) % kSleepers)])) ++rounds;
+      }
+      ++done;
+    });
+  }
+  int made = 0;
+  while (done < kWakers || made < rounds) {
+    if (made == rounds) continue;
+    list.go_round([](Sleeper& sleeper) { ++sleeper.wakened; });
+    ++made;
+  }
+  int wakened = 0;
+  for (const auto& sleeper : sleepers) wakened += sleeper->wakened;
+  EXPECT_EQ(wakened, kWakers * kTimes);
 }
 
 TEST(HostOfScenes, ASceneWithoutViewersSleeps) {

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "net/client.h"
 #include "net/connection_pool.h"
 #include "net/log_limiter.h"
+#include "net/message_head.h"
 #include "net/origin.h"
 #include "net/static_files.h"
 
@@ -16,6 +18,22 @@ namespace weft::net {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string bytes_of(const MessageHead& head) { return {head.bytes().begin(), head.bytes().end()}; }
+
+// RFC 6455, section 5.7, has the first two and the length of the third; section 5.2 the borders between the
+// lengths of 7, 16 and 64 bits.
+TEST(MessageHead, HasTheLengthInAsFewBytesAsItTakes) {
+  using Kind = MessageHead::Kind;
+  EXPECT_EQ(bytes_of({Kind::text, 5}), "\x81\x05");
+  EXPECT_EQ(bytes_of({Kind::binary, 256}), std::string("\x82\x7E\x01\x00", 4));
+  EXPECT_EQ(bytes_of({Kind::binary, 65536}), std::string("\x82\x7F\0\0\0\0\0\x01\0\0", 10));
+  EXPECT_EQ(bytes_of({Kind::text, 0}), std::string("\x81\0", 2));
+  EXPECT_EQ(bytes_of({Kind::text, 125}), "\x81\x7D");
+  EXPECT_EQ(bytes_of({Kind::text, 126}), std::string("\x81\x7E\0\x7E", 4));
+  EXPECT_EQ(bytes_of({Kind::text, 65535}), "\x81\x7E\xFF\xFF");
+  EXPECT_EQ(bytes_of({Kind::text, 0x0102030405060708}), "\x81\x7F\x01\x02\x03\x04\x05\x06\x07\x08");
+}
 
 TEST(LogLimiter, LeavesOutWhatIsTooMuchAndCountsIt) {
   const LogLimiter::TimePoint start{std::chrono::hours(1)};

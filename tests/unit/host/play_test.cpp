@@ -141,6 +141,30 @@ TEST(PlayOfResets, EachBeginsAnEpoch) {
   EXPECT_EQ(shown.events("reset"), 3);
 }
 
+// The viewer's own: what was recorded does not take back what it has asked for.
+TEST(PlayOfResets, StepsThatAViewerAskedForGoOnBehindOne) {
+  std::string bytes;
+  const auto recorder = std::make_shared<record::Recorder>(scene_of_sheet(), json::object(),
+                                                           [&](const std::string& more) { bytes += more; });
+  {
+    WatchedPlay was;
+    was.live.record({recorder});
+    was.steps(3);
+    was.command(protocol::Reset{});
+    was.steps(7);
+    recorder->flush();
+  }
+  WatchedPlay shown(
+      Playing{std::make_shared<const record::Recording>(record::Recording::of_text(std::move(bytes)))});
+  shown.command(protocol::Pause{});
+  EXPECT_EQ(shown.command(protocol::Step{6}).at("op"), "ok");
+  int made = 0;
+  for (; shown.live.wants_step(); ++made) shown.steps(1);
+  EXPECT_EQ(made, 6);
+  EXPECT_EQ(shown.live.epoch(), 2u);
+  EXPECT_EQ(shown.live.simulation().step_count(), 3u);  // of six the last three are the new epoch's
+}
+
 TEST_F(Play, WhoComesLateIsToldTheSame) {
   WatchedPlay shown(playing());
   shown.steps(22);

@@ -97,14 +97,37 @@ TEST(HoleFilling, AFlatSheetEnclosesNothing) {
   EXPECT_EQ(refusal(sheet), "the surface encloses nothing when its holes are filled; a solid has an inside");
 }
 
+/// An open cylinder of radius and height 1 about (x, z) = (centre, 0).
+TriangleList tube(int corners, double centre = 0) {
+  std::vector<Vec2> outline;
+  for (int i = 0; i < corners; ++i)
+    outline.emplace_back(centre + std::cos(2 * std::numbers::pi * i / corners),
+                         std::sin(2 * std::numbers::pi * i / corners));
+  return wall(outline);
+}
+
+/// So many tubes beside each other.
+TriangleList tubes(int count, int corners) {
+  TriangleList all;
+  for (int i = 0; i < count; ++i) {
+    const TriangleList one = tube(corners, 3.0 * i);
+    const int first = static_cast<int>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), one.vertices.begin(), one.vertices.end());
+    for (const auto& [a, b, c] : one.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+// A tube has two holes. Four of 1000 edges are allowed, and of 500 edges, whose cube is an eighth, 32.
+TEST(HoleFilling, AllHolesTogetherHaveALimit) {
+  EXPECT_EQ(refusal(tubes(2, 1000)), "");
+  EXPECT_EQ(refusal(tubes(16, 500)), "");
+  EXPECT_EQ(refusal(tubes(17, 500)),
+            "its 34 holes have 17000 edges and are too much to fill: as much as 4 of 1000 edges is allowed "
+            "(the time grows with the cube of a hole's edges)");
+}
+
 TEST(HoleFilling, AHoleHasALimit) {
-  const auto tube = [](int corners) {
-    std::vector<Vec2> outline;
-    for (int i = 0; i < corners; ++i)
-      outline.emplace_back(std::cos(2 * std::numbers::pi * i / corners),
-                           std::sin(2 * std::numbers::pi * i / corners));
-    return wall(outline);
-  };
   EXPECT_EQ(refusal(tube(1000)), "");
   EXPECT_NE(refusal(tube(1001)).find("has more than 1000 edges, the most that are filled"),
             std::string::npos);

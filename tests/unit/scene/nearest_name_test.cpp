@@ -32,6 +32,13 @@ TEST(NearestName, IsNoneWhereNoneIsNear) {
   EXPECT_EQ(nearest_name("gravty", {}), "");
 }
 
+/// The time grows with the product of the lengths; one of 64 characters is compared, one of 65 is not.
+TEST(NearestName, LooksNoFurtherThan64Characters) {
+  const std::string name(64, 'g');
+  EXPECT_EQ(nearest_name(std::string(63, 'g') + 'x', {name}), name);
+  EXPECT_EQ(nearest_name(std::string(64, 'g') + 'x', {name}), "");
+}
+
 TEST(NearestName, IsAskedAfter) {
   EXPECT_EQ(did_you_mean("gravty", kNames), "; did you mean \"gravity\"?");
   EXPECT_EQ(did_you_mean("colour", kNames), "");

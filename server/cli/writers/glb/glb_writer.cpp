@@ -16,13 +16,13 @@ constexpr std::uint64_t kMostBytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kMagic = 0x46546C67, kGlbVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
-/// The length of the file stands at its beginning, and the JSON before the buffer: vertices are put aside
-/// until the end.
+/// The length of the file stands at its beginning, and the JSON before the buffer: vertices and the ways of
+/// bodies are put aside until the end.
 class GlbWriter final : public SceneWriter {
  public:
-  GlbWriter(const std::string& path, const ExportedScene& scene)
-      : path_(path), scene_(scene), file_(path), bodies_(scene.bodies.size()) {
+  GlbWriter(const std::string& path, const ExportedScene& scene) : path_(path), scene_(scene), file_(path) {
     for (const std::string& cloth : scene.cloths) cloths_.emplace_back(path, cloth);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) bodies_.emplace_back(path);
   }
 
   void write(const SceneFrame& frame) override {
@@ -34,7 +34,7 @@ class GlbWriter final : public SceneWriter {
     times_.push_back(since);
     for (std::size_t i = 0; i < cloths_.size(); ++i) cloths_[i].write(frame.cloths[i]);
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].write(frame.bodies[i]);
-    std::uint64_t bytes = 0, in_all = 0;
+    std::uint64_t bytes = bytes_of_bodies(), in_all = 0;
     for (const GlbCloth& cloth : cloths_) {
       bytes += cloth.bytes();
       in_all += cloth.bytes_of(scene_.frames);
@@ -46,6 +46,7 @@ class GlbWriter final : public SceneWriter {
     GlbDocument document(scene_.name);
     std::uint64_t before = 0;
     for (const GlbCloth& cloth : cloths_) before += cloth.bytes();
+    before += bytes_of_bodies();
     if (!times_.empty()) describe(document, before);
     std::string json = document.json(before);
     json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -64,6 +65,7 @@ class GlbWriter final : public SceneWriter {
     }
     file_.write(start);
     for (GlbCloth& cloth : cloths_) cloth.copy_to(file_);
+    for (GlbBody& body : bodies_) body.copy_to(file_);
     file_.write(document.data());
     file_.close();
   }
@@ -81,8 +83,16 @@ class GlbWriter final : public SceneWriter {
     if (bodies_.empty()) return;
     const int body = document.add_material("body", {0.5, 0.5, 0.5, 1}, false);
     const int times = document.add_floats(times_, "SCALAR", GlbDocument::Target::none, true);
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      bodies_[i].describe(document, scene_.bodies[i], times, body);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i].describe(document, begin, scene_.bodies[i], times, body);
+      begin += bodies_[i].bytes();
+    }
+  }
+
+  std::uint64_t bytes_of_bodies() const {
+    std::uint64_t bytes = 0;
+    for (const GlbBody& body : bodies_) bytes += body.bytes();
+    return bytes;
   }
 
   void expect_room(std::uint64_t bytes) const {

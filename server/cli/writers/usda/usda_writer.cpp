@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "cli/writers/output_file.h"
+#include "cli/writers/spill_file.h"
 #include "cli/writers/usda/usda_cloth.h"
 #include "cli/writers/usda/usda_text.h"
 #include "cli/writers/writers.h"
@@ -10,46 +13,61 @@
 namespace weft::cli {
 namespace {
 
-/// The way of a body: one sample for each pose that differs from the one before, and the one before it.
-class Way {
+/// The way of a body: one sample for each pose that differs from the one before, and the one before it. They
+/// are put aside from the second on: of what stands still nothing is kept but where.
+class UsdaWay {
  public:
+  /// `path`: of the .usda.
+  explicit UsdaWay(std::string path) : path_(std::move(path)) {}
+
   void add(int frame, const std::string& value) {
-    if (samples_.empty() || value != last_) {
-      if (!samples_.empty() && last_frame_ != written_) append(last_frame_, last_);
+    if (first_.empty()) {
+      first_ = value;
+      written_ = frame;
+      first_sample_ = sample(frame, value);
+    } else if (value != last_) {
+      if (last_frame_ != written_) append(last_frame_, last_);
       append(frame, value);
     }
     last_ = value;
     last_frame_ = frame;
   }
   /// `attribute` with its value, if it is only one, or else its samples.
-  std::string text(const std::string& attribute) const {
+  void write(OutputFile& file, const std::string& attribute) {
     std::string text("        ");
     text += attribute;
-    if (count_ > 1) return text.append(".timeSamples = {\n").append(samples_).append("        }\n");
-    return text.append(" = ").append(last_).append("\n");
+    if (!samples_) return file.write(text.append(" = ").append(first_).append("\n"));
+    file.write(text.append(".timeSamples = {\n").append(first_sample_));
+    samples_->copy_to(file);
+    file.write("        }\n");
   }
 
  private:
+  static std::string sample(int frame, const std::string& value) {
+    std::string line("            ");
+    return line.append(std::to_string(frame)).append(": ").append(value).append(",\n");
+  }
   void append(int frame, const std::string& value) {
-    samples_.append("            ").append(std::to_string(frame)).append(": ").append(value).append(",\n");
+    if (!samples_) samples_ = std::make_unique<SpillFile>(path_);
+    samples_->write(sample(frame, value));
     written_ = frame;
-    ++count_;
   }
 
-  std::string samples_, last_;
+  std::string path_, first_, first_sample_, last_;
+  std::unique_ptr<SpillFile> samples_;
   int last_frame_ = 0, written_ = 0;
-  int count_ = 0;
 };
 
 struct BodyWay {
-  Way translation, turn;
+  explicit BodyWay(const std::string& path) : translation(path), turn(path) {}
+  UsdaWay translation, turn;
 };
 
 class UsdaWriter final : public SceneWriter {
  public:
-  UsdaWriter(const std::string& path, const ExportedScene& scene)
-      : path_(path), scene_(scene), file_(path), ways_(scene.bodies.size()) {
+  UsdaWriter(const std::string& path, const ExportedScene& scene) : path_(path), scene_(scene), file_(path) {
     for (const std::string& cloth : scene.cloths) cloths_.emplace_back(path, cloth);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) ways_.emplace_back(path);
   }
 
   void write(const SceneFrame& frame) override {
@@ -104,7 +122,7 @@ class UsdaWriter final : public SceneWriter {
     return prim;
   }
 
-  void write_body(const BodyMesh& body, const BodyWay& way) {
+  void write_body(const BodyMesh& body, BodyWay& way) {
     const std::vector<std::uint32_t> counts(body.triangles.size() / 3, 3);
     std::string text("\n    def Mesh \"");
     text.append(prim_name(body.name)).append("\"\n    {\n");
@@ -118,8 +136,10 @@ class UsdaWriter final : public SceneWriter {
               usda_vectors(body.normals, 3) + " (\n            interpolation = \"vertex\"\n        )");
     attribute("point3f[] points", usda_vectors(body.positions, 3));
     attribute("uniform token subdivisionScheme", "\"none\"");
-    text.append(way.turn.text("quatf xformOp:orient"))
-        .append(way.translation.text("double3 xformOp:translate"));
+    file_.write(text);
+    text.clear();
+    way.turn.write(file_, "quatf xformOp:orient");
+    way.translation.write(file_, "double3 xformOp:translate");
     attribute("uniform token[] xformOpOrder", "[\"xformOp:translate\", \"xformOp:orient\"]");
     text += "    }\n";
     file_.write(text);
