@@ -1,6 +1,11 @@
 // What a viewer saves of what is seen: a picture, a video, a model.
 import assert from 'node:assert/strict';
+import {execFile} from 'node:child_process';
+import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
 import {before, test} from 'node:test';
+import {promisify} from 'node:util';
 import {kFirefox} from './browsers.mjs';
 import {hide, openScene, pause, startServer, stats, until} from './harness.mjs';
 
@@ -109,6 +114,24 @@ test('a model of cloth and ball where they are, with the fabric', async () => {
   const {translation = [0, 0, 0], scale} = node(`ball ${ball.ball}`);
   translation.forEach((value, axis) => assert.ok(Math.abs(value - ball.position[axis]) < 1e-5, `ball at ${translation}, not at ${ball.position}`));
   assert.ok(scale[0] > 0.89 * ball.radius && scale[0] <= ball.radius, `a ball of ${scale[0]} m`);  // drawn a little smaller: see BallsView
+});
+
+test('a cloth can start from the model', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'weft-model-'));
+  const {bytes} = await saved(() => page.click('#save-model'));
+  const {cloths: [{name, level}]} = await stats(page);
+  const scene = {cloths: [{name, size: [1, 1], levels: {min: level, max: level}, nodes: {file: 'model.glb'}}]};
+  await writeFile(join(folder, 'model.glb'), bytes);
+  await writeFile(join(folder, 'scene.json'), JSON.stringify(scene));
+  const out = join(folder, 'start.csv');
+  await promisify(execFile)(process.env.WEFT_BINARY, ['run', join(folder, 'scene.json'), '--frames', '1', '--out', out]);
+  const rows = (await readFile(out, 'utf8')).split('\n').filter((line) => line.startsWith('0,'));
+  const told = await page.evaluate(() => weft.positions());
+  const started = rows.flatMap((row) => row.split(',').slice(4, 7).map(Number));
+  assert.equal(started.length, told.length);
+  const worst = Math.max(...told.map((value, i) => Math.abs(value - started[i])));
+  assert.ok(worst < 1e-5, `a node is ${worst} m off`);
+  await rm(folder, {recursive: true});
 });
 
 test('nothing was loaded from elsewhere, and the console is clean', () => {
