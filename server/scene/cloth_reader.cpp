@@ -210,8 +210,7 @@ void read_nodes(Object& object, const SceneFolder& folder, ClothDescription& clo
   if (!value.is_array() || value.size() != expected) {
     object.report().refuse(value, object.path("nodes"),
                            "an array of " + std::to_string(expected) + ": the nodes at level " +
-                               std::to_string(cloth.initial_level) +
-                               ", row by row");
+                               std::to_string(cloth.initial_level) + ", row by row");
     return;
   }
   object.each("nodes", expected, expected, [&](const json& node, const std::string& path) {
