@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cloth/shapes/triangle_mesh.h"
-
 namespace weft::cli {
 namespace {
 
@@ -101,6 +99,13 @@ BodyMesh body_mesh(std::string name, const Shape& shape) {
         {Vec3(-kHalf, 0, kHalf), Vec3(kHalf, 0, kHalf), Vec3(kHalf, 0, -kHalf), Vec3(-kHalf, 0, -kHalf)},
         Vec3(0, 1, 0));
   }
+  return mesh;
+}
+
+BodyMesh body_mesh(std::string name, const TriangleList& list) {
+  BodyMesh mesh;
+  mesh.name = std::move(name);
+  append_triangles(mesh, list);
   return mesh;
 }
 
