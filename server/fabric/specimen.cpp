@@ -82,7 +82,10 @@ bool Specimen::face_there(int r, int c) const {
 }
 
 Forces<double> Specimen::forces(double time) const {
-  return {&springs_, &effects_, {&cloth_, &calm_, time}, nullptr, plate_ ? &*plate_ : nullptr};
+  return {.springs = &springs_,
+          .effects = &effects_,
+          .context = {&cloth_, &calm_, time},
+          .plate = plate_ ? &*plate_ : nullptr};
 }
 
 double Specimen::advance(double step) {

@@ -32,6 +32,11 @@ int substeps(const XpbdDescription& description, double dt);
 ///
 /// A sheet in violent motion, struck, or blown up has up to 4 times the substeps (substep_refinement.h).
 ///
+/// Soft pins (soft_pins.h) are implicit, so that any stiffness is stable: a spring k that draws a node of
+/// mass m to p adds k / 2 |x - p|^2 to the m / (2 h^2) |x - x~|^2 that inertia asks for (Macklin et al. 2016,
+/// Eq. 5), and both are least together, but for a constant, as a mass m + k h^2 that is predicted at (m x~ +
+/// k h^2 p) / (m + k h^2). All projections find that mass, and the pin carries all that they ask of it.
+///
 /// A plate's stencils (plate.h) are projected before the springs, each once: softer than asked for where the
 /// plate's stiffest modes are much faster than the substeps.
 ///
@@ -67,6 +72,12 @@ class Xpbd final : public Integrator<Real> {
   /// Those of families that were there before; families without stiffness are left out of the list.
   void keep_multipliers(const std::vector<SpringFamily>& families, std::size_t sheet_lanes);
   void prepare_plate(const Plate<Real>& plate, double h);
+  /// Gives the nodes of soft pins the masses that they have in substeps of h seconds.
+  void prepare_soft_pins(const SoftPins<Real>& pins, double h);
+  /// Moves them from where they were predicted towards their places at `time`, s, the substep's end.
+  void draw_to_soft_pins(const SoftPins<Real>& pins, const Vec3& place, double time);
+  /// Of the node, in `sheet_`: x where the substep began; the other fields follow by layout_.stride.
+  Real* lane_of(std::size_t node);
   /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
   void take_back_pins(const Forces<Real>& forces, double share, double h);
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
@@ -82,6 +93,7 @@ class Xpbd final : public Integrator<Real> {
   std::vector<Real, AlignedAllocator<Real>> multiplier_;  ///< of damped springs: a row of lanes for each row
   std::vector<std::array<int, 2>> families_;              ///< rows and columns of those
   std::vector<kernels::XpbdSprings<Real>> springs_;
+  std::vector<double> soft_shares_;  ///< of soft pins: the share of a node's way to its place, in their order
   std::vector<Real, AlignedAllocator<Real>> plate_;  ///< its stiffnesses in that layout; empty without one
 };
 

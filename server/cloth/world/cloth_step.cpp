@@ -106,6 +106,7 @@ Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
   return {.springs = &springs_,
           .effects = &effects_,
           .context = context,
+          .soft_pins = soft_pins_,
           .plate = plate(),
           .seam = seam(),
           .gas = gas_.get()};
