@@ -202,8 +202,8 @@ TEST_P(SoftPinsOf, KeepTheMomentumOfBodyAndCloth) {
   EXPECT_GT(most, 0.1);
 }
 
-// XPBD takes them implicitly. 0.1 kg hang on an edge or on one node whose share of the sheet is 0.4 mg at
-// level 4: however stiff, at 60 Hz, what it draws at rest is the weight, 0.1 * 9.81 / k.
+// XPBD takes them implicitly. 0.1 kg hang on an edge or on one node, which has 0.2 g of them at level 4:
+// however stiff, at 60 Hz, what it draws at rest is the weight, 0.1 * 9.81 / k.
 TEST(SoftPins, OfAnyStiffnessHoldAWeightWithXpbd) {
   for (const PinRegion& region : {PinRegion{.u_max = 1}, PinRegion{.u_min = 0.5, .u_max = 0.5}}) {
     for (const double stiffness : {1e2, 1e4, 1e6}) {
@@ -221,19 +221,16 @@ TEST(SoftPins, OfAnyStiffnessHoldAWeightWithXpbd) {
   }
 }
 
-// One node in two regions with stiffnesses of 300 and 100 N/m, the second drawing it 0.1 m aside: at rest it
-// is a quarter of that way, 25 mm, aside, and 0.981 / 400 m below.
+// One node in two regions with stiffnesses of 300 and 100 N/m hangs 0.981 / 400 m below.
 TEST(SoftPins, OfTwoRegionsShareANodeWithXpbd) {
   SimulationDescription scene =
       softly_pinned(XpbdDescription{}, {.u_min = 0.5, .u_max = 0.5, .stiffness = 300});
-  scene.cloths[0].pins.push_back(
-      {.u_min = 0.5, .u_max = 0.5, .path = {{0, {0, 0, 0}}, {0.5, {0.1, 0, 0}}}, .stiffness = 100});
+  scene.cloths[0].pins.push_back({.u_min = 0.5, .u_max = 0.5, .stiffness = 100});
   scene.cloths[0].material.damping = 3;
   scene.effects = {GravityEffect{}, DampingEffect{}};
   Simulation<double> simulation(scene);
   for (int step = 0; step < 900; ++step) simulation.step();
   const Vec3 node = simulation.cloths()[0].particles().position_at(0, 8);
-  EXPECT_NEAR(node.x(), 0.025, 0.00025);
   EXPECT_NEAR(0.5 - node.y(), 0.981 / 400, 0.01 * 0.981 / 400);
 }
 
