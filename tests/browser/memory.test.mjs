@@ -9,14 +9,34 @@ const kWarm = 0.3;  // the share of the time after which the page has made all t
 /** Less than 64 bytes for each of 60 frames a second: an object that a frame leaves behind is larger. */
 const kMostBytes = 64 * 60 * 60 * kMinutes * (1 - kWarm);
 
-/** Heaps after a collection of all garbage, of the page and its workers: {bytes, workers, nodes, listeners}. */
+/** Of a heap's snapshot what a page's own objects are. Compiled code and the browser's lists of its own timings come and go. */
+const kOwn = new Set(['object', 'array', 'string', 'concatenated string', 'sliced string', 'closure', 'regexp', 'number', 'symbol', 'bigint']);
+const kBuffers = 'system / JSArrayBufferData';
+
+/** The bytes of the page's own objects and buffers; a snapshot begins with a collection of all garbage. */
+async function ownBytes(hand) {
+  let text = '';
+  const add = ({chunk}) => (text += chunk);
+  hand.on('HeapProfiler.addHeapSnapshotChunk', add);
+  await hand.send('HeapProfiler.takeHeapSnapshot', {reportProgress: false});
+  hand.off('HeapProfiler.addHeapSnapshotChunk', add);
+  const {snapshot: {meta}, nodes, strings} = JSON.parse(text);
+  const [type, name, size] = ['type', 'name', 'self_size'].map((field) => meta.node_fields.indexOf(field));
+  let sum = 0;
+  for (let at = 0; at < nodes.length; at += meta.node_fields.length) {
+    if (kOwn.has(meta.node_types[type][nodes[at + type]]) || strings[nodes[at + name]] === kBuffers) sum += nodes[at + size];
+  }
+  return sum;
+}
+
+/** What is kept after a collection of all garbage, by the page and its workers. */
 async function kept(hand, workers) {
-  const collected = async (send) => {
+  const heapOf = async (send) => {
     for (let i = 0; i < 2; ++i) await send('HeapProfiler.collectGarbage');
     return (await send('Runtime.getHeapUsage')).usedSize;
   };
-  const bytes = await collected((method) => hand.send(method));
-  const theirs = await Promise.all([...workers.values()].map(collected));
+  const theirs = await Promise.all([...workers.values()].map(heapOf));
+  const bytes = await ownBytes(hand);
   const {nodes, jsEventListeners: listeners} = await hand.send('Memory.getDOMCounters');
   return {bytes, workers: theirs.reduce((sum, each) => sum + each, 0), nodes, listeners};
 }
