@@ -7,10 +7,10 @@ build_packages=(g++ cmake ninja-build ccache libeigen3-dev libfcl-dev libtbb-dev
 # To run the image: the shared libraries of the above.
 runtime_packages=(libfcl0.7 libtbb12 libssl3 libprometheus-cpp-core1.0 libspdlog1.10 libqhull-r8.0 libtinyobjloader2rc10)
 # To test it: C++ test libraries, an image reader; what the Python client needs, what packs it, checks its types and runs its
-# notebook; a browser; proxies.
+# notebook; browsers, a screen for the one that draws nothing without; proxies.
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev librapidcheck-dev libvalijson-dev libtinygltf-dev
                python3 python3-numpy python3-websockets python3-pip python3-setuptools python3-wheel python3-venv mypy
-               python3-nbclient python3-ipykernel valgrind chromium fonts-dejavu-core
+               python3-nbclient python3-ipykernel valgrind chromium fonts-dejavu-core firefox-esr xvfb libegl1
                haproxy nginx)
 # To check it: format and lint.
 lint_packages=(clang clang-format clang-tidy)

@@ -13,6 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/seen_bodies.h"
 #include "cli/writers/scene_writer.h"
 #include "cloth/core/clock.h"
 #include "net/client.h"
@@ -44,6 +45,13 @@ struct ClientOptions {
 };
 
 volatile std::sig_atomic_t interrupted = 0;
+
+/// The path that everything of the server at `target` is below, with a slash at its end: of a scene's there,
+/// or of the page's.
+std::string base_path(const std::string& target) {
+  const std::string base = target.substr(0, target.find(kScenes));
+  return base.ends_with('/') ? base : base + '/';
+}
 
 /// A message of the script, and when it is due after the start.
 struct Timed {
@@ -79,6 +87,7 @@ class Conversation {
  public:
   Conversation(const ClientOptions& options, const net::Url& url)
       : options_(options),
+        url_(url),
         script_(options.script.empty() ? std::vector<Timed>{} : read_script(options.script)),
         client_(url, {.limit = kConnectTime,
                       .security = options.security,
@@ -93,9 +102,9 @@ class Conversation {
     if (!options_.eye.empty()) client_.post(protocol::Camera{std::nullopt, vector_of(options_.eye)});
     if (!options_.wind.empty()) client_.post(protocol::WindSet{vector_of(options_.wind), options_.wind[3]});
     if (!options_.ball.empty()) {
-      const std::int64_t id =
+      added_ =
           client_.post(protocol::BallAdd{.position = vector_of(options_.ball), .radius = options_.ball[3]});
-      if (!options_.velocity.empty()) throws_when_added_ = id;
+      awaits_ball_ = true;
     }
     try {
       while (!finished()) {
@@ -143,8 +152,12 @@ class Conversation {
   void take_control(const json& message, std::string_view text) {
     const std::string op = message.at("op");
     if (op == "scene") enter(message);
-    if (op == "ok" && message.at("re") == throws_when_added_) throw_ball(message.at("ball"));
+    if (op == "ok" && message.at("re") == added_) {
+      ball_ = message.at("ball");
+      if (!options_.velocity.empty()) throw_ball(*ball_);
+    }
     if (op == "error") {
+      if (message.contains("re") && message.at("re") == added_) awaits_ball_ = false;
       refused_ = true;
       std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
     } else if (op != "stats" && op != "welcome" && !options_.quiet) {
@@ -156,8 +169,7 @@ class Conversation {
     exported_ = {scene.at("name"), {}, {}, scene.at("dt")};
     for (const json& cloth : scene.at("cloths")) exported_.cloths.push_back(cloth.at("name"));
     seen_.cloths.assign(exported_.cloths.size(), {});
-    const bool waits_for_its_ball = throws_when_added_ != 0;
-    if (options_.velocity.empty() || waits_for_its_ball || thrown_) return;
+    if (options_.velocity.empty() || added_ != 0 || thrown_) return;
     if (scene.at("balls").empty())
       throw std::runtime_error("the scene has no ball to throw: add one with --ball");
     throw_ball(scene.at("balls").at(0).at("ball"));
@@ -168,7 +180,14 @@ class Conversation {
     client_.post(protocol::BallThrow{ball, vector_of(options_.velocity)});
   }
 
+  /// Frames count from the first that has the ball that was asked for: files have the bodies of their first.
   void take_frame(const net::SceneClient::Received& received) {
+    const auto& balls = received.frame.balls;
+    if (awaits_ball_ && ball_) {
+      awaits_ball_ = std::none_of(balls.begin(), balls.end(),
+                                  [&](const protocol::FrameBall& ball) { return ball.id == *ball_; });
+    }
+    if (awaits_ball_) return;
     write(received.frame);
     if (!options_.quiet) print(received.frame, received.bytes);
     ++frames_;
@@ -195,30 +214,40 @@ class Conversation {
       cloth.time = frame.stamp.time;
     }
     if (writers_.empty()) {
+      bodies_ = SeenBodies(client_.scene(), frame, [&](std::size_t obstacle) { return mesh_text(obstacle); });
+      exported_.bodies = bodies_.meshes();
       for (const std::string& path : options_.outputs) writers_.push_back(SceneWriter::open(path, exported_));
     }
+    seen_.bodies = bodies_.poses(frame);
     for (const auto& writer : writers_) writer->write(seen_);
   }
 
+  std::string mesh_text(std::size_t obstacle) const {
+    net::Url url = url_;
+    url.target =
+        base_path(url.target) + std::string(kScenes) + exported_.name + "/meshes/" + std::to_string(obstacle);
+    const net::HttpReply reply = net::http_get(url, kConnectTime, options_.security);
+    if (reply.status != 200)
+      throw std::runtime_error(url.target + ": the server answers " + std::to_string(reply.status));
+    return reply.body;
+  }
+
   const ClientOptions& options_;
+  const net::Url url_;
   std::vector<Timed> script_;
   net::SceneClient client_;
   Clock::time_point start_;
-  std::size_t sent_ = 0;                ///< of the script
-  std::int64_t throws_when_added_ = 0;  ///< id of the ball.add whose ball is to be thrown
+  std::size_t sent_ = 0;               ///< of the script
+  std::int64_t added_ = 0;             ///< id of the ball.add
+  std::optional<std::uint32_t> ball_;  ///< that it added
+  bool awaits_ball_ = false;           ///< no frame has had it so far
   bool thrown_ = false, refused_ = false;
   int frames_ = 0;
-  ExportedScene exported_;                             ///< the scene joined, with its cloths alone
-  SceneFrame seen_;                                    ///< the newest of each cloth
+  ExportedScene exported_;                             ///< the scene joined
+  SceneFrame seen_;                                    ///< the newest of each cloth and body
+  SeenBodies bodies_;                                  ///< from the first frame that is written on
   std::vector<std::unique_ptr<SceneWriter>> writers_;  ///< from the first frame on
 };
-
-/// The path that everything of the server at `target` is below, with a slash at its end: of a scene's there,
-/// or of the page's.
-std::string base_path(const std::string& target) {
-  const std::string base = target.substr(0, target.find(kScenes));
-  return base.ends_with('/') ? base : base + '/';
-}
 
 int check_health(net::Url url, const net::ClientSecurity& security) {
   url.target = base_path(url.target) + "healthz";
@@ -267,9 +296,8 @@ void add_client(CLI::App& app, int& exit_code) {
   command->add_option("--seconds", options->seconds, "Ends after this time, s")->check(CLI::PositiveNumber);
   command
       ->add_option("--out", options->outputs,
-                   "Cloths as they come, by extension: .glb, .usda, .obj (one file a frame), or .pc2, .mdd "
-                   "and .csv, one a "
-                   "cloth; may be given several times")
+                   "The scene as it comes, by extension: .glb, .usda, .obj (one file a frame) with its balls "
+                   "and obstacles, or .pc2, .mdd and .csv, one a cloth; may be given several times")
       ->allow_extra_args(false);
   command->add_option("--script", options->script,
                       "Messages to send, one a line: a message of the protocol with \"at\", its time in s");

@@ -197,12 +197,16 @@ int nodes_at(const ClothDescription& cloth, int level) {
 }
 
 /// The start positions, for a cloth whose cells and levels have been read.
-void read_nodes(Object& object, ClothDescription& cloth) {
+void read_nodes(Object& object, const SceneFolder& folder, ClothDescription& cloth) {
   for (const char* key : {"position", "orientation"}) {
     if (object.has(key)) object.problem(key, "is given beside nodes; nodes are where the cloth starts");
   }
-  const auto expected = static_cast<std::size_t>(nodes_at(cloth, cloth.initial_level));
   const json& value = *object.find("nodes");
+  if (value.is_object()) {
+    cloth.nodes = read_start(value, object.path("nodes"), object.report(), folder, cloth);
+    return;
+  }
+  const auto expected = static_cast<std::size_t>(nodes_at(cloth, cloth.initial_level));
   if (!value.is_array() || value.size() != expected) {
     object.report().refuse(value, object.path("nodes"),
                            "an array of " + std::to_string(expected) + ": the nodes at level " +
@@ -240,8 +244,8 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-ClothDescription read_cloth(const json& value, const std::string& path, Report& report, MotionFiles& motions,
-                            Look& look) {
+ClothDescription read_cloth(const json& value, const std::string& path, Report& report,
+                            const SceneFolder& folder, MotionFiles& motions, Look& look) {
   constexpr Range kBaseCells{1, 32};
   constexpr Range kPerturbation{0, 100, "m"};
   ClothDescription cloth;
@@ -262,14 +266,15 @@ ClothDescription read_cloth(const json& value, const std::string& path, Report& 
     }
   }
   if (const json* levels = object.find("levels")) read_levels(*levels, object.path("levels"), report, cloth);
-  if (const int nodes = nodes_at(cloth, cloth.max_level); nodes > kMaxClothNodes) {
+  const int nodes = nodes_at(cloth, cloth.max_level);
+  if (nodes > kMaxClothNodes) {
     report.add(path, "has " + std::to_string(nodes) + " nodes at level " + std::to_string(cloth.max_level) +
                          "; at most " + std::to_string(kMaxClothNodes) + " are allowed");
   }
   object.boolean("sewn", cloth.sewn);
-  if (object.has("nodes")) {
+  if (object.has("nodes") && nodes <= kMaxClothNodes) {
     if (cloth.sewn) object.problem("nodes", "is given beside sewn; a bag begins flat");
-    read_nodes(object, cloth);
+    read_nodes(object, folder, cloth);
   }
   object.vector("position", cloth.position, kPosition);
   if (const json* orientation = object.find("orientation")) {

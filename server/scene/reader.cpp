@@ -42,11 +42,12 @@ void read_camera(const json& value, const std::string& path, Report& report, Sce
   }
 }
 
-std::vector<ClothDescription> read_cloths(Object& scene, MotionFiles& motions, std::vector<Look>& looks) {
+std::vector<ClothDescription> read_cloths(Object& scene, const SceneFolder& folder, MotionFiles& motions,
+                                          std::vector<Look>& looks) {
   std::vector<ClothDescription> cloths;
   scene.require("cloths", "an array of cloths");
   scene.each("cloths", 1, kMaxCloths, [&](const json& value, const std::string& path) {
-    ClothDescription cloth = read_cloth(value, path, scene.report(), motions, looks.emplace_back());
+    ClothDescription cloth = read_cloth(value, path, scene.report(), folder, motions, looks.emplace_back());
     const auto same =
         std::find_if(cloths.begin(), cloths.end(), [&](const auto& o) { return o.name == cloth.name; });
     if (same != cloths.end()) {
@@ -166,7 +167,7 @@ Result read_scene(const json& document, std::string_view name, const SceneFolder
     MotionFiles motions(folder);
     object.string("title", scene.title, kTitleLength);
     scene.notes = read_notes(object);
-    simulation.cloths = read_cloths(object, motions, scene.looks);
+    simulation.cloths = read_cloths(object, folder, motions, scene.looks);
     object.each("colliders", 0, kMaxColliders, [&](const json& value, const std::string& path) {
       read_collider(value, path, report, folder, motions, simulation);
     });

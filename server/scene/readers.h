@@ -26,15 +26,19 @@ inline constexpr Range kVelocity{-1e3, 1e3, "m/s"};
 inline constexpr Range kLevel{kMinLevel, kMaxLevel};
 inline constexpr Range kComponent{-1e6, 1e6};  ///< of a direction, whose length does not matter
 
+/// Where a scene's other files are, if it is a file itself.
+using SceneFolder = std::optional<std::filesystem::path>;
 /// A cloth, and what it looks like.
 ClothDescription read_cloth(const nlohmann::json& value, const std::string& path, Report& report,
-                            MotionFiles& motions, Look& look);
+                            const SceneFolder& folder, MotionFiles& motions, Look& look);
+/// Where a cloth's nodes start that takes them from a file: what "nodes" says where it is an object. The
+/// cloth's name, cells and levels have been read. Empty, and problems, if they cannot be read.
+std::vector<Vec3> read_start(const nlohmann::json& value, const std::string& path, Report& report,
+                             const SceneFolder& folder, const ClothDescription& cloth);
 /// `value` is nullptr where the scene does not say; then, and for what it leaves out, the look is that of the
 /// fabric that `material` names, if there is one and it does.
 Look read_look(const nlohmann::json* value, const std::string& path, Report& report,
                const nlohmann::json* material);
-/// Where a scene's other files are, if it is a file itself.
-using SceneFolder = std::optional<std::filesystem::path>;
 /// Adds a ball or an obstacle to the simulation.
 void read_collider(const nlohmann::json& value, const std::string& path, Report& report,
                    const SceneFolder& folder, MotionFiles& motions, SimulationDescription& simulation);

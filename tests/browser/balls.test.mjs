@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {setTimeout as sleep} from 'node:timers/promises';
-import {openScene, pause, startServer, stats, until} from './harness.mjs';
+import {kNeedsChromium, openScene, pause, startServer, stats, until} from './harness.mjs';
 
 let page;
 before(async () => {
@@ -100,7 +100,7 @@ test('a ball in the cloth deforms it', async () => {
   assert.ok(Math.abs(z - node[2]) > 0.5 * radius, `the node gave way by ${Math.abs(z - node[2])} m`);
 });
 
-test('a ball let go in motion is thrown', async () => {
+test('a ball let go in motion is thrown', kNeedsChromium, async () => {
   await page.fill('#ball-place [data-axis="2"]', '1.5');
   await page.press('#ball-place [data-axis="2"]', 'Enter');
   await until(page, () => Math.abs(weft.stats.balls[0].position[2] - 1.5) < 1e-3);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {setTimeout as sleep} from 'node:timers/promises';
-import {openScene, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
+import {kNeedsChromium, openScene, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
 
 // By their places in scenes/bodies.json.
 const kBox = 1, kCapsule = 2, kShelf = 3, kHidden = 4;
@@ -96,7 +96,7 @@ test('a box dragged by the mouse follows it, falls when it is let go, and comes 
   assert.deepEqual((await stats(page)).eye, eye);
 });
 
-test('a body let go in motion is thrown', async () => {
+test('a body let go in motion is thrown', kNeedsChromium, async () => {
   await startAgain();
   const [x, y] = await onPage(await placeOf(kBox));
   // A flick of 12 movements 10 ms apart, by times of its own: however late a busy machine brings them, the hand was as fast.
@@ -151,7 +151,7 @@ test('the controls do the same: a place by numbers, a throw for what has a mass'
   await until(page, ([index, height]) => weft.stats.obstacles[index][1] > height + 0.5, [kBox, before]);
 });
 
-test('a finger drags a body on a narrow page, whose controls fit', async () => {
+test('a finger drags a body on a narrow page, whose controls fit', kNeedsChromium, async () => {
   await startAgain();
   const {page: phone, witness} = await openScene(server, 'bodies', {viewport: {width: 375, height: 720}, hasTouch: true, isMobile: true});
   const from = (await stats(phone)).obstacles[kCapsule];

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {openScene, skip, startServer, stats, until} from './harness.mjs';
+import {kNeedsChromium, openScene, skip, startServer, stats, until} from './harness.mjs';
 
 // A hand's spring has the frequency 20 rad/s for the whole cloth: hung from it alone the cloth hangs g / 20^2 below (grab.h).
 const kBelow = 9.81 / 20 ** 2;
@@ -127,7 +127,7 @@ test('double click with Shift pins the cloth there, again unpins it', async () =
   assert.ok(Math.hypot(...still.map((value, axis) => value - held[axis])) < kNear, `${still} instead of ${held}`);
 });
 
-test('the hand tool does it with a finger, without Shift', async () => {
+test('the hand tool does it with a finger, without Shift', kNeedsChromium, async () => {
   await lieDown();
   await page.click('#hand');
   assert.equal(await page.getAttribute('#hand', 'aria-pressed'), 'true');
@@ -141,10 +141,12 @@ test('the hand tool does it with a finger, without Shift', async () => {
   await expectHanging();
   await touch('touchEnd');
   await expectFallen();
+  await page.click('#hand');
 });
 
 test('a window that loses the focus lets go', async () => {
   await lieDown();
+  await page.click('#hand');
   await page.mouse.move(...await onPage(await place({u: 0.5, v: 0.5})));
   await page.mouse.down();
   await page.mouse.move(...await onPage([0, 1.1, 0]), {steps: 6});

@@ -6,7 +6,7 @@ import {after} from 'node:test';
 import {setTimeout as sleep} from 'node:timers/promises';
 import WebSocket from 'ws';
 import {connect} from '../../protocol/clients/js/weft.js';
-import {openChromium} from './chromium.mjs';
+import {kFirefox, openBrowser} from './browsers.mjs';
 
 /** Longest wait for anything: generous, since the browser draws on the processor and shares it. */
 export const kPatienceMs = 60_000;
@@ -44,13 +44,19 @@ export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAG
   };
 }
 
+/** For tests whose pointers need times or fingers of their own, which only Chromium's protocol gives. */
+export const kNeedsChromium = {skip: kFirefox && 'by WebDriver no pointer has times of its own'};
+
+/** Firefox itself logs a socket that its page closes before it is open, as a page does that is hidden just then. */
+const kFirefoxOwn = /^Firefox can’t establish a connection to |^The connection to ws\S+ was interrupted while the page was loading/;
+
 /** Every page opened so far logs here what it must not do. */
 export class Witness {
   constructor(page) {
     this.requests = [];
     this.errors = [];
     page.on('request', (request) => this.requests.push(request.url()));
-    page.on('console', (message) => message.type() === 'error' && this.errors.push(message.text()));
+    page.on('console', (message) => message.type() === 'error' && !(kFirefox && kFirefoxOwn.test(message.text())) && this.errors.push(message.text()));
     page.on('pageerror', (error) => this.errors.push(String(error)));
   }
 }
@@ -60,14 +66,26 @@ export class Witness {
  * @returns {Promise<{page: import('playwright-core').Page, witness: Witness}>}
  */
 export async function openPage(address, options = {}) {
-  browser ??= await openChromium();
+  browser ??= await openBrowser();
   const {before, ...window} = options;
   const page = await browser.newPage({viewport: {width: 900, height: 640}, deviceScaleFactor: 0.25, reducedMotion: 'reduce', ...window});
   page.setDefaultTimeout(kPatienceMs);
   const witness = new Witness(page);
+  // WebDriver cannot set what the viewer prefers: Firefox's page is told by its own question.
+  if (kFirefox) await page.addInitScript(preferMotion, window.reducedMotion ?? 'reduce');
   if (before) await page.addInitScript(before);
   await page.goto(address);
   return {page, witness};
+}
+
+/** Has `matchMedia` answer a page's question for reduced motion. */
+function preferMotion(wanted) {
+  const ask = window.matchMedia.bind(window);
+  window.matchMedia = (query) => {
+    const answer = ask(query);
+    if (query.includes('prefers-reduced-motion')) Object.defineProperty(answer, 'matches', {value: query.includes(wanted)});
+    return answer;
+  };
 }
 
 /** Opens a scene and waits until its cloth is on the page. */

@@ -83,6 +83,7 @@ test('the numbers of each cloth’s material unfold by the keyboard, with the ra
   const fold = page.getByRole('button', {name: 'Adjust the material'});
   assert.equal(await fold.getAttribute('aria-expanded'), 'false');
   assert.equal(await number(page, 'Damping').count(), 0);
+  await page.bringToFront();
   await fold.focus();
   await page.keyboard.press('Enter');
   assert.ok(await page.getByRole('group', {name: 'the material'}).isVisible());

@@ -21,6 +21,7 @@ test('each effect has a plain name; those with something to set unfold it by the
   const fold = page.getByRole('button', {name: 'Adjust Wind and drag'});
   assert.equal(await fold.getAttribute('aria-expanded'), 'false');
   assert.equal(await drag(page).count(), 0);
+  await page.bringToFront();
   await fold.focus();
   await page.keyboard.press('Enter');
   assert.equal(await fold.getAttribute('aria-expanded'), 'true');

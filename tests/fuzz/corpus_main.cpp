@@ -21,12 +21,19 @@ struct Named {
 };
 
 constexpr std::array kTargets{
-    Named{"messages", fuzz::messages}, Named{"frames", fuzz::frames},
-    Named{"scenes", fuzz::scenes},     Named{"meshes", fuzz::meshes},
-    Named{"motions", fuzz::motions},   Named{"requests", fuzz::requests},
-    Named{"gate", fuzz::gate},         Named{"tokens", fuzz::tokens},
-    Named{"settings", fuzz::settings}, Named{"recordings", fuzz::recordings},
-    Named{"fabrics", fuzz::fabrics},   Named{"connection", fuzz::connection},
+    Named{"messages", fuzz::messages},
+    Named{"frames", fuzz::frames},
+    Named{"scenes", fuzz::scenes},
+    Named{"meshes", fuzz::meshes},
+    Named{"motions", fuzz::motions},
+    Named{"requests", fuzz::requests},
+    Named{"gate", fuzz::gate},
+    Named{"tokens", fuzz::tokens},
+    Named{"settings", fuzz::settings},
+    Named{"recordings", fuzz::recordings},
+    Named{"fabrics", fuzz::fabrics},
+    Named{"starts", fuzz::starts},
+    Named{"connection", fuzz::connection},
 };
 
 std::vector<fs::path> files_in(const fs::path& folder) {

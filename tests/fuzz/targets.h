@@ -16,6 +16,7 @@ Target frames;      ///< a server's binary message
 Target scenes;      ///< a client's scene, as it makes one
 Target meshes;      ///< an OBJ file
 Target motions;     ///< a BVH or a glTF file
+Target starts;      ///< a file that a cloth starts from
 Target requests;    ///< an HTTP request: its rules, its token and its origin
 Target gate;        ///< a viewer's WebSocket frames, in pieces
 Target connection;  ///< all that is sent on one connection: HTTP, WebSocket, messages

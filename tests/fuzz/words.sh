@@ -13,6 +13,10 @@ words_of() {
       printf '"\\"%s\\""\n' asset version buffers byteLength bufferViews byteOffset byteStride accessors componentType count type nodes children \
         translation rotation scale matrix animations samplers channels input output interpolation CUBICSPLINE target path skins joints
       ;;
+    starts)
+      printf '"%s"\n' 'o cloth' '\x0av ' '\x0avt ' frame,time,row,col,x,y,z 'def Mesh \"cloth\"' 'point3f[] points.timeSamples = {' \
+        'texCoord2f[] primvars:st = [' 'double3 xformOp:translate = ' 'timeCodesPerSecond = ' POINTCACHE2 glTF POSITION TEXCOORD_0 targets weights
+      ;;
     requests)
       printf '"\\x0d\\x0a%s: "\n' Host Origin Authorization Connection Upgrade Sec-WebSocket-Key Sec-WebSocket-Protocol \
         Sec-WebSocket-Version Content-Length Transfer-Encoding

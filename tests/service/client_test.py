@@ -15,6 +15,18 @@ from serving import BINARY, GENEROUS, SCENES, Server
 FRAME = re.compile(r"frame (\d+)  time ([\d.]+) s  level ([\d,]+)  nodes ([\d,]+)  bytes (\d+)")
 
 
+def objects_of(path):
+    """The vertices of each object of an OBJ file."""
+    objects = {}
+    for line in path.read_text().splitlines():
+        word, *values = line.split()
+        if word == "o":
+            vertices = objects.setdefault(values[0], [])
+        elif word == "v":
+            vertices.append([float(value) for value in values])
+    return objects
+
+
 class Client(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -69,6 +81,47 @@ class Client(unittest.TestCase):
             self.assertEqual((path / "seen.glb").read_bytes()[:4], b"glTF")
             self.assertEqual((path / "seen.pc2").read_bytes()[:11], b"POINTCACHE2")
             self.assertEqual(len(list(path.glob("seen*.obj"))), len(frames))
+
+    def test_saves_the_bodies_as_a_run_does(self):
+        """Vertices as `weft run` writes them, which has the shapes themselves; a mesh comes to a micrometre, places as floats."""
+        square = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        scene = {
+            "cloths": [{"levels": {"min": 3, "max": 3}, "position": [0, 3, 0], "pins": ["top"]}],
+            "effects": [{"type": "gravity"}],
+            "colliders": [
+                {"type": "plane", "position": [0, -1, 0], "normal": [0.1, 1, 0]},
+                {"type": "ball", "position": [0.1, 0.2, 0.3], "radius": 0.25},
+                {"type": "box", "position": [1, 0, 0], "size": [0.1, 0.2, 0.3], "orientation": {"axis": [1, 1, 0], "degrees": 30}},
+                {"type": "capsule", "position": [2, 0, 0], "radius": 0.1, "length": 0.5},
+                {"type": "convex", "position": [3, 0, 0], "points": square},
+                {"type": "mesh", "position": [4, 0, 0], "vertices": square, "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]},
+                {"type": "box", "size": [1, 1, 1], "path": [{"time": 1000, "position": [5, 0, 0]}]}]}
+        with tempfile.TemporaryDirectory() as directory:
+            path = pathlib.Path(directory)
+            (path / "all.json").write_text(json.dumps(scene))
+            subprocess.run([BINARY, "run", path / "all.json", "--frames", "1", "--out", path / "run.obj"], check=True, stdout=subprocess.DEVNULL)
+            server = Server(path / "all.json")
+            self.addCleanup(server.end)
+            outputs = [argument for name in ("obj", "glb", "usda") for argument in ("--out", path / f"seen.{name}")]
+            done = self.client("--quiet", "--ball", "0,5,0,0.5", "--frames", 3, *outputs, url=server.url("all"))
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            frames = sorted(path.glob("seen_*.obj"))
+            self.assertEqual(len(frames), 3)
+            run, seen = objects_of(path / "run_0000.obj"), objects_of(frames[-1])
+            self.assertEqual(list(run), ["cloth", "ball-1"] + [f"obstacle-{i}" for i in range(6)])
+            self.assertEqual(list(seen), ["cloth", "ball-1", "ball-2"] + [f"obstacle-{i}" for i in range(6)])
+            for name in list(run)[1:]:
+                self.assertEqual(len(seen[name]), len(run[name]), name)
+                worst = max(abs(a - b) for mine, other in zip(seen[name], run[name]) for a, b in zip(mine, other))
+                self.assertLessEqual(worst, 2e-6, name)
+            heights = [y for _, y, _ in seen["ball-2"]]
+            self.assertAlmostEqual(max(heights) - min(heights), 1, delta=1e-5)
+            self.assertAlmostEqual((max(heights) + min(heights)) / 2, 5, delta=1e-5)  # kinematic
+            glb = (path / "seen.glb").read_bytes()
+            names = [node["name"] for node in json.loads(glb[20:20 + int.from_bytes(glb[12:16], "little")])["nodes"]]
+            self.assertEqual(names, list(seen))
+            usda = (path / "seen.usda").read_text()
+            self.assertEqual(re.findall(r'def Mesh "(\w+)"', usda), [name.replace("-", "_") for name in seen])
 
     def test_recordings_that_cannot_be_written_are_1(self):
         with tempfile.TemporaryDirectory() as directory:

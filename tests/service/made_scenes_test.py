@@ -87,6 +87,9 @@ class MadeScenes(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(status, 422)
             self.assertEqual([problem["path"] for problem in answer["problems"]], ["/colliders/0/file"])
             self.assertIn("is given by a scene that is not a file itself", answer["problems"][0]["message"])
+        status, answer = self.ask(server, "PUT", "spy", self.changed(cloths=[{"nodes": {"file": "drape.obj"}}]))
+        self.assertEqual((status, [problem["path"] for problem in answer["problems"]]), (422, ["/cloths/0/nodes/file"]))
+        self.assertIn("is given by a scene that is not a file itself", answer["problems"][0]["message"])
         self.assertEqual(self.named(server), ["still"])
 
     def test_what_is_too_much_is_refused(self):

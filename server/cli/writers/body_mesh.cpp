@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cloth/shapes/triangle_mesh.h"
-
 namespace weft::cli {
 namespace {
 
@@ -98,6 +96,13 @@ BodyMesh body_mesh(std::string name, const Shape& shape) {
   BodyMesh mesh;
   mesh.name = std::move(name);
   std::visit([&](const auto& each) { append(mesh, each); }, shape);
+  return mesh;
+}
+
+BodyMesh body_mesh(std::string name, const TriangleList& list) {
+  BodyMesh mesh;
+  mesh.name = std::move(name);
+  append_triangles(mesh, list);
   return mesh;
 }
 

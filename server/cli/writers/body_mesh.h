@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloth/shapes/shape.h"
+#include "cloth/shapes/triangle_mesh.h"
 
 namespace weft::cli {
 
@@ -17,5 +18,7 @@ struct BodyMesh {
 
 /// Balls and round ends have 32 segments around; a plane, which has no end, is a square of 20 m.
 BodyMesh body_mesh(std::string name, const Shape& shape);
+/// Of triangles, closed or not.
+BodyMesh body_mesh(std::string name, const TriangleList& list);
 
 }  // namespace weft::cli

@@ -40,6 +40,21 @@ class SoftPins final : public Effect<Real> {
   /// holds kPinBound.
   void push(const Particles<Real>& particles, std::vector<Solid>& solids, double time, double dt) const;
 
+  /// Calls visit(node, stiffness), in N/m, for each of its springs: for methods that take them implicitly.
+  template <class Visit>
+  void for_each_stiffness(Visit visit) const {
+    for (const Held& held : held_) {
+      for (const Spring& spring : held.springs) visit(spring.node, spring.stiffness);
+    }
+  }
+  /// Calls visit(node, place) for each in the same order: where it draws the node at `time`, s, in the world,
+  /// m.
+  template <class Visit>
+  void for_each_place(double time, Visit visit) const {
+    move_places(time);
+    for_each_stiffness([&](std::size_t node, double) { visit(node, place_of(node)); });
+  }
+
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
                   VectorField<Real>& force) const override;
   /// Of each region's pull across it, together.
@@ -76,6 +91,10 @@ class SoftPins final : public Effect<Real> {
   /// Calls visit(spring, from the node to its place, m) for all of a region.
   template <class Visit>
   void for_each_spring(const Held& held, const Particles<Real>& particles, Visit visit) const;
+  Vec3 place_of(std::size_t node) const {
+    const VectorField<Real>& at = places_.position;
+    return places_.place + Vec3(at.x.values()[node], at.y.values()[node], at.z.values()[node]);
+  }
   void move_places(double time) const {
     if (places_of_.moving()) places_of_.carry(places_, time);
   }

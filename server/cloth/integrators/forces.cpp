@@ -46,9 +46,12 @@ double Forces<Real>::tension(const Particles<Real>& particles) const {
 }
 
 template <class Real>
-void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const {
+void Forces<Real>::sum_effects(const Particles<Real>& particles, VectorField<Real>& force,
+                               const Effect<Real>* other) const {
   force.fill(Real(0));
-  for (const auto& effect : *effects) effect->add_forces(particles, context, force);
+  for (const auto& effect : *effects) {
+    if (effect.get() != other) effect->add_forces(particles, context, force);
+  }
 }
 
 template <class Real>
@@ -63,9 +66,11 @@ double Forces<Real>::effects_energy(const Particles<Real>& particles) const {
 }
 
 template <class Real>
-DampingRates Forces<Real>::max_damping_rates(const Particles<Real>& particles) const {
+DampingRates Forces<Real>::max_damping_rates(const Particles<Real>& particles,
+                                             const Effect<Real>* other) const {
   DampingRates rates;
   for (const auto& effect : *effects) {
+    if (effect.get() == other) continue;
     (effect->slow() ? rates.slow : rates.other) += effect->max_damping_rate(particles, context);
   }
   return rates;

@@ -5,6 +5,7 @@
 #include "cloth/air/bag.h"
 #include "cloth/contact/constraints/layer_contacts.h"
 #include "cloth/forces/effect.h"
+#include "cloth/forces/soft_pins.h"
 #include "cloth/sheet/pins.h"
 #include "cloth/sheet/sheet.h"
 
@@ -30,12 +31,13 @@ struct Forces {
   const Sheet<Real>* sheet = nullptr;
   const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
   EffectContext context;
-  const Pins<Real>* pins = nullptr;       ///< if any of them moves
-  LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
-  bool layered = false;                   ///< some may, in the scene
-  Bag<Real>* bag = nullptr;               ///< of a sewn cloth
-  Drive drive = Drive::other;             ///< what may do work on the cloth in this step
-  bool disturbed = false;                 ///< something may have given it energy since the last step
+  const Pins<Real>* pins = nullptr;           ///< if any of them moves
+  const SoftPins<Real>* soft_pins = nullptr;  ///< the one among the effects, if some hold
+  LayerContacts<Real>* layers = nullptr;      ///< if layers of cloth lie near one another in this step
+  bool layered = false;                       ///< some may, in the scene
+  Bag<Real>* bag = nullptr;                   ///< of a sewn cloth
+  Drive drive = Drive::other;                 ///< what may do work on the cloth in this step
+  bool disturbed = false;                     ///< something may have given it energy since the last step
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {
@@ -66,14 +68,16 @@ struct Forces {
   void sum_with(const VectorField<Real>& slow, const Particles<Real>& particles,
                 VectorField<Real>& force) const;
   void sum_slow(const Particles<Real>& particles, VectorField<Real>& force) const;
-  /// The scene's effects alone; `force` is overwritten, N.
-  void sum_effects(const Particles<Real>& particles, VectorField<Real>& force) const;
+  /// The scene's effects alone, without `other`, which the method takes in its own way; `force` is
+  /// overwritten, N.
+  void sum_effects(const Particles<Real>& particles, VectorField<Real>& force,
+                   const Effect<Real>* other = nullptr) const;
   /// Of motion, sheet, and of the effects that have one, J.
   double energy(const Particles<Real>& particles) const;
   /// Of the effects that have one, J: of height.
   double effects_energy(const Particles<Real>& particles) const;
   bool any_slow() const;
-  DampingRates max_damping_rates(const Particles<Real>& particles) const;
+  DampingRates max_damping_rates(const Particles<Real>& particles, const Effect<Real>* other = nullptr) const;
   /// What the sheet needs to hold all that the effects do, N/m, at most.
   double tension(const Particles<Real>& particles) const;
 

@@ -44,7 +44,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
   if (before != times_) projection_.scale_substep(static_cast<Real>(before) / static_cast<Real>(times_));
   // Explicit drag reverses velocities where its rate exceeds 1/h: forces are then scaled so that it stops
   // them at most, which leaves every terminal velocity as it is.
-  const double rate = forces.max_damping_rates(particles).sum();
+  const double rate = forces.max_damping_rates(particles, forces.soft_pins).sum();
   const double force_share = rate * h > 1 ? 1 / (rate * h) : 1;
   forces.context.damping_limit = std::max(rate, 1 / h);
   for (int s = 0; s < report.substeps; ++s) {
@@ -80,6 +80,7 @@ void Xpbd<Real>::prepare(const Particles<Real>& particles, const Forces<Real>& f
   }
   kernels::set_inverse_masses(layout_, grid, particles.inverse_mass.row(0), sheet_.data());
   projection_.prepare(*forces.sheet, particles.mass, layout_, h);
+  if (forces.soft_pins != nullptr) prepare_soft_pins(*forces.soft_pins, h);
 }
 
 template <class Real>
@@ -90,12 +91,42 @@ void Xpbd<Real>::lay_out(const Grid& grid) {
 }
 
 template <class Real>
-void Xpbd<Real>::take_back_pins(const Forces<Real>& forces, double share, double h) {
+void Xpbd<Real>::prepare_soft_pins(const SoftPins<Real>& pins, double h) {
+  soft_shares_.clear();
+  pins.for_each_stiffness([&](std::size_t node, double stiffness) {
+    Real& inverse_mass = lane_of(node)[kernels::QuarterRows::kInverseMass * layout_.stride];
+    const double ratio = stiffness * h * h * double(inverse_mass);
+    inverse_mass = static_cast<Real>(double(inverse_mass) / (1 + ratio));
+    soft_shares_.push_back(ratio / (1 + ratio));
+  });
+}
+
+template <class Real>
+void Xpbd<Real>::draw_to_soft_pins(const SoftPins<Real>& pins, const Vec3& place, double time) {
+  auto share = soft_shares_.begin();
+  pins.for_each_place(time, [&](std::size_t node, const Vec3& to) {
+    Real* lane = lane_of(node);
+    for (const int component : {0, 1, 2}) {
+      Real& move = lane[kernels::QuarterRows::kMove * layout_.stride];
+      move += static_cast<Real>(*share * (to[component] - place[component] - double(lane[0]) - double(move)));
+      lane += layout_.stride;
+    }
+    ++share;
+  });
+}
+
+template <class Real>
+Real* Xpbd<Real>::lane_of(std::size_t node) {
   const auto stride = static_cast<std::size_t>(force_.grid().stride);
+  return sheet_.data() + node / stride * layout_.row_size() +
+         static_cast<std::size_t>(layout_.lane(static_cast<int>(node % stride)));
+}
+
+template <class Real>
+void Xpbd<Real>::take_back_pins(const Forces<Real>& forces, double share, double h) {
   const double begin = forces.context.time;
   forces.for_each_pin_way(begin, begin + h, [&](std::size_t node, const Vec3& way) {
-    Real* lane = sheet_.data() + node / stride * layout_.row_size() +
-                 static_cast<std::size_t>(layout_.lane(static_cast<int>(node % stride)));
+    Real* lane = lane_of(node);
     for (const int component : {0, 1, 2}) {
       const Real part = static_cast<Real>(share * way[component]);
       lane[0] -= part;
@@ -109,13 +140,15 @@ template <class Real>
 void Xpbd<Real>::substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share,
                          double h) {
   const Grid& grid = particles.grid();
-  forces.sum_effects(particles, force_);
+  forces.sum_effects(particles, force_, forces.soft_pins);
   const kernels::XpbdNodes<Real> nodes{kernels::components(std::as_const(force_)),
                                        particles.inverse_mass.row(0), kernels::components(particles.velocity),
                                        kernels::components(particles.position),
                                        kernels::components(rounded_off_)};
   kernels::predict(layout_, grid, nodes, static_cast<Real>(force_share * h), static_cast<Real>(h),
                    sheet_.data(), row_.data());
+  if (forces.soft_pins != nullptr)
+    draw_to_soft_pins(*forces.soft_pins, particles.place, forces.context.time + h);
   const bool damped = forces.sheet->damped();
   if (damped) {
     take_back_pins(forces, 1, h);

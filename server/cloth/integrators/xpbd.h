@@ -20,6 +20,11 @@ int substeps(const XpbdDescription& description, double dt);
 ///
 /// A sheet in violent motion, struck, or blown up has up to 4 times the substeps (substep_refinement.h).
 ///
+/// Soft pins (soft_pins.h) are implicit, so that any stiffness is stable: a spring k that draws a node of
+/// mass m to p adds k / 2 |x - p|^2 to the m / (2 h^2) |x - x~|^2 that inertia asks for (Macklin et al. 2016,
+/// Eq. 5), and both are least together, but for a constant, as a mass m + k h^2 that is predicted at (m x~ +
+/// k h^2 p) / (m + k h^2). All projections find that mass, and the pin carries all that they ask of it.
+///
 /// A plate's stencils are softer than asked for where the plate's stiffest modes are much faster than the
 /// substeps.
 template <class Real>
@@ -47,6 +52,12 @@ class Xpbd final : public Integrator<Real> {
   /// Lays out the work arrays for these particles, and the sheet for substeps of h seconds.
   void prepare(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   void lay_out(const Grid& grid);
+  /// Gives the nodes of soft pins the masses that they have in substeps of h seconds.
+  void prepare_soft_pins(const SoftPins<Real>& pins, double h);
+  /// Moves them from where they were predicted towards their places at `time`, s, the substep's end.
+  void draw_to_soft_pins(const SoftPins<Real>& pins, const Vec3& place, double time);
+  /// Of the node, in `sheet_`: x where the substep began; the other fields follow by layout_.stride.
+  Real* lane_of(std::size_t node);
   /// Takes the nodes of moving pins back by `share` of their way in the substep, which makes it their move.
   void take_back_pins(const Forces<Real>& forces, double share, double h);
   void substep(Particles<Real>& particles, const Forces<Real>& forces, double force_share, double h);
@@ -59,6 +70,7 @@ class Xpbd final : public Integrator<Real> {
   std::vector<Real, AlignedAllocator<Real>> sheet_;  ///< the nodes in that layout
   std::vector<Real, AlignedAllocator<Real>> row_;    ///< one row in the particles' own order
   SheetProjection<Real> projection_;
+  std::vector<double> soft_shares_;  ///< of soft pins: the share of a node's way to its place, in their order
 };
 
 extern template class Xpbd<float>;

@@ -103,7 +103,11 @@ AdvanceReport Cloth<Real>::advance_soundly(const std::vector<Solid>& solids, con
 
 template <class Real>
 Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
-  return {.sheet = &sheet_, .effects = &effects_, .context = context, .bag = bag_ ? &*bag_ : nullptr};
+  return {.sheet = &sheet_,
+          .effects = &effects_,
+          .context = context,
+          .soft_pins = soft_pins_,
+          .bag = bag_ ? &*bag_ : nullptr};
 }
 
 template <class Real>

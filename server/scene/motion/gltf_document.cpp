@@ -82,6 +82,7 @@ const ComponentType& component_type(std::uint64_t code) {
 
 std::size_t components_of(std::string_view type) {
   if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   return type == "VEC4" ? 4 : 16;
 }

@@ -52,8 +52,8 @@ class GltfDocument {
     std::vector<double> values;  ///< finite
     const double* at(std::size_t element) const { return values.data() + element * components; }
   };
-  /// An accessor's, of this type: "SCALAR", "VEC3", "VEC4", "MAT4". Normalised integers are from -1 or 0
-  /// to 1.
+  /// An accessor's, of this type: "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4". Normalised integers are from -1
+  /// or 0 to 1.
   Numbers numbers(std::size_t accessor, std::string_view type) const;
 
  private:

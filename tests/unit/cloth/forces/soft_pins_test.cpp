@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -199,6 +200,59 @@ TEST_P(SoftPinsOf, KeepTheMomentumOfBodyAndCloth) {
     EXPECT_LT((angular - Vec3(0, -0.05, 0)).norm(), impulse * (place.norm() + 1)) << step;
   }
   EXPECT_GT(most, 0.1);
+}
+
+// XPBD takes them implicitly. 0.1 kg hang on an edge or on one node, which has 0.2 g of them at level 4:
+// however stiff, at 60 Hz, what it draws at rest is the weight, 0.1 * 9.81 / k.
+TEST(SoftPins, OfAnyStiffnessHoldAWeightWithXpbd) {
+  for (const PinRegion& region : {PinRegion{.u_max = 1}, PinRegion{.u_min = 0.5, .u_max = 0.5}}) {
+    for (const double stiffness : {1e2, 1e4, 1e6}) {
+      PinRegion pin = region;
+      pin.stiffness = stiffness;
+      SimulationDescription scene = softly_pinned(XpbdDescription{}, pin);
+      scene.cloths[0].material.damping = 3;
+      scene.effects = {GravityEffect{}, DampingEffect{}};
+      Simulation<double> simulation(scene);
+      for (int step = 0; step < 900; ++step) simulation.step();
+      const Particles<double>& particles = simulation.cloths()[0].particles();
+      const double sag = 0.5 - (pin.u_min > 0 ? particles.position_at(0, 8) : top_centre(particles)).y();
+      EXPECT_NEAR(sag * stiffness, 0.981, 0.00981) << stiffness << " N/m from u = " << pin.u_min;
+    }
+  }
+}
+
+// One node in two regions with stiffnesses of 300 and 100 N/m hangs 0.981 / 400 m below.
+TEST(SoftPins, OfTwoRegionsShareANodeWithXpbd) {
+  SimulationDescription scene =
+      softly_pinned(XpbdDescription{}, {.u_min = 0.5, .u_max = 0.5, .stiffness = 300});
+  scene.cloths[0].pins.push_back({.u_min = 0.5, .u_max = 0.5, .stiffness = 100});
+  scene.cloths[0].material.damping = 3;
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  Simulation<double> simulation(scene);
+  for (int step = 0; step < 900; ++step) simulation.step();
+  const Vec3 node = simulation.cloths()[0].particles().position_at(0, 8);
+  EXPECT_NEAR(0.5 - node.y(), 0.981 / 400, 0.01 * 0.981 / 400);
+}
+
+// A patch that is shaken by 0.2 m five times a second: no stiffness makes it gain energy.
+TEST(SoftPins, OfAnyStiffnessFollowAShakenPlaceWithXpbd) {
+  for (const double stiffness : {1e2, 1e4, 1e6}) {
+    PinRegion pin{.u_max = 1, .stiffness = stiffness};
+    for (int i = 0; i <= 20; ++i) pin.path.push_back({0.1 * i, {0, 0, i % 2 == 0 ? 0 : 0.2}});
+    SimulationDescription scene = softly_pinned(XpbdDescription{}, pin);
+    scene.effects = {GravityEffect{}, DampingEffect{}};
+    Simulation<float> simulation(scene);
+    double fastest = 0;
+    for (int step = 0; step < 240; ++step) {
+      simulation.step();
+      const Particles<float>& particles = simulation.cloths()[0].particles();
+      each_node(particles.grid(),
+                [&](int r, int c) { fastest = std::max(fastest, particles.velocity_at(r, c).norm()); });
+    }
+    // The place goes at 2 m/s, and turns round by twice that; a whip's free end gains some of it.
+    EXPECT_GT(fastest, 2) << stiffness;
+    EXPECT_LT(fastest, 20) << stiffness;
+  }
 }
 
 // The force on each node is its share by mass, k m_i / m of the way, whatever the level.
