@@ -86,7 +86,10 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
     report.found = report.found || (solved.finite && found);
     double error = changed.error, pulling = 0;
-    if (!memory_->contacts.empty()) pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
+    if (!memory_->contacts.empty()) {
+      error += memory_->contacts.error(s.move, s.system.bodies());
+      pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
+    }
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
     const double motion = s.kept_stiffness * s.motion.energy();

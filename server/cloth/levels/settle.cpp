@@ -41,7 +41,7 @@ bool any_deep(const Particles<Real>& particles, Contact<Real>& contact, const st
   return std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
     const auto solid = std::find_if(still.begin(), still.end(),
                                     [&](const Solid& each) { return each.id == touch.collider; });
-    return solid->depth(ClothPoint<Real>(touch.point(), particles).of(position), 0) > kShallow * cell;
+    return -solid->gap(ClothPoint<Real>(touch.point(), particles).of(position), 0) > kShallow * cell;
   });
 }
 

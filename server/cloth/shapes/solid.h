@@ -69,8 +69,8 @@ struct Solid {
   PlacedShape placed(double fraction) const {
     return {shape, at(fraction), turns() ? turned(fraction - 1) * rotation : rotation};
   }
-  /// How deep a node that is at `node` when a part of the step begins at `from` is inside then, m; 0 outside.
-  double depth(const Vec3& node, double from) const;
+  /// How far outside a node is that is at `node` when a part of the step begins at `from`, m; below 0 inside.
+  double gap(const Vec3& node, double from) const;
   bool turns() const { return !turn.isZero(0); }
   bool moves() const { return position != start || !velocity.isZero(0) || turns(); }
   /// How far a point goes that is at `point` at `from` and then goes with it, m.

@@ -18,8 +18,7 @@ double touching_distance(double seconds) { return standard_gravity().norm() * se
 template <class Real>
 void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
                                      const Particles<Real>& particles, const std::vector<Solid>& solids,
-                                     const Substep& substep, bool near_rest, AttachedBodies<Real>& bodies) {
-  near_rest_ = near_rest;
+                                     const Substep& substep, AttachedBodies<Real>& bodies) {
   std::swap(last_, constraints_);
   clear();
   bodies.clear();
@@ -96,64 +95,38 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
     -> Constraint {
   const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
   const bool held = same != last_.end() && same->touch == touch;
-  const double holds = held ? solid.friction * same->usual_force() : 0.0;
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
-  const double slid = across(slip, normal).norm();
+  const double bears_from = solid.yields() ? 0 : margin();
   Constraint made{touch,
                   point,
                   std::nullopt,
                   Vec3(0, 0, 0),
                   normal,
-                  normal.dot(way) - surface.distance,
-                  solid.depth(place, substep_.from),
+                  normal.dot(way) - surface.distance + bears_from,
+                  0,
                   move,
-                  holds,
-                  slid,
-                  slid,
                   inner_radius(solid.shape),
                   -normal.dot(slip) / substep_.seconds};
+  // What meets it anew is led out to where the spring begins to bear, at no speed.
+  made.led_out = std::max(0.0, (held ? 0 : bears_from) - solid.gap(place, substep_.from));
+  made.coefficient = solid.friction;
+  const double pressed_in = solid.yields() ? 0 : std::max(0.0, made.distance - normal.dot(way));
+  made.friction = SurfaceFriction(across(slip, normal), solid.friction * pressed_in);
   if (held) {
     made.last_force = same->force;
     made.force_before = same->last_force;
+    made.friction.go_on_from(same->friction, normal);
   }
-  made.has_stuck = held && (same->has_stuck || same->sticks());
-  if (made.has_stuck) {
-    made.speeding_up = speeding_up(*same, slid, holds, point.mass());
-    made.sliding += std::max(0.0, std::min(made.speeding_up, same->speeding_up));
-  }
-  if (held) {
-    made.gained_before = same->gained;
-    // Friction in proportion to the slip would grow with what it gains on the last one.
-    if (!made.has_stuck && !solid.yields())
-      made.sliding += std::max(0.0, std::min(same->gained, same->gained_before));
-  }
-  if (held && near_rest_) made.grip = across(same->grip, normal);
-  if (made.grip.squaredNorm() > holds * holds) made.grip.setZero();
   return made;
 }
 
-/// Median of this step's force and the last two. A step is solved as accurately as its motion needs, and a
-/// contact is so stiff that a single force may be many times too large.
+/// Median of this step's force and the last two: an impact's is many times the usual one.
 template <class Real>
 double ContactConstraints<Real>::Constraint::usual_force() const {
   if (last_force < 0) return force;
   if (force_before < 0) return std::min(force, last_force);
   return std::max(std::min(force, last_force), std::min(std::max(force, last_force), force_before));
-}
-
-/// Friction is taken in proportion to the slip that is expected (add_to). By the last slip alone a node that
-/// has stuck would begin to slip only as fast as its tiny slip can grow: a sheet on a slope of 30 degrees
-/// whose friction falls from 0.8 to 0.2 stayed for another 0.18 s, with this for 0.03 s. No step's pull is
-/// trusted alone: a sheet that friction of 0.3 holds on a slope of 15 degrees would creep by 4 mm/s. Where a
-/// node has only slid, the last slip's little too much makes up for its first step, which knows of no force:
-/// without, a sheet that begins to slide is ahead by 14 % after a second (T14).
-template <class Real>
-double ContactConstraints<Real>::speeding_up(const Constraint& last, double slid, double holds,
-                                             double mass) const {
-  if (slid == 0) return 0;  // stopped since then (settle): what pulled at it is no measure of what will
-  const double h = substep_.seconds;
-  return slid - last.slid + (last.grip.norm() - holds) * h * h / mass;
 }
 
 /// This solid, or one that faces it, holds the node.
@@ -225,7 +198,7 @@ bool ContactConstraints<Real>::let_go_of_slid_off(const Particles<Real>& particl
 template <class Real>
 void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real> velocity) {
   const auto room = [&](const Constraint& c) {
-    return substep_.seconds * c.normal.dot(c.point.moved_by(velocity)) - c.distance;
+    return substep_.seconds * c.normal.dot(c.point.moved_by(velocity)) - c.distance + margin();
   };
   const auto pinched = [&](const Constraint& a, const Constraint& b) {
     return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
@@ -245,6 +218,7 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
     if (stuck) {
       kept.push_back(*std::min_element(node, end, moves_least));
       kept.back().pinched = true;
+      kept.back().distance -= margin();
     } else {
       kept.insert(kept.end(), node, end);
     }

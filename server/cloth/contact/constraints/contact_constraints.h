@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cloth/contact/constraints/surface_friction.h"
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/kernels/link_kernels.h"
 #include "cloth/solver/attached_bodies.h"
@@ -17,11 +18,14 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 }
 
 /// Contacts as a part of an implicit step's linear system. A node that touches a solid or will in the step is
-/// held to its surface along the normal by a spring so stiff that it hardly gives, and dragged along with the
-/// solid by Coulomb friction: a force of at most friction times the normal force, that of the steps before. A
-/// spring that turns out to pull is taken away. Near rest a node that sticks goes on with the force that held
-/// it: found anew in each step it would have to slip for it each time, and a drape would creep. What little
-/// the others give, and nodes that were not expected, Contact::resolve puts right after the step.
+/// held off its surface along the normal by a spring, and dragged along with the solid by Coulomb friction
+/// (SurfaceFriction). A spring that turns out to pull is taken away. Nodes that were not expected
+/// Contact::resolve puts outside after the step.
+///
+/// A spring is as stiff as it must be to bear what it bore in the last steps by a small depth, no stiffer:
+/// what it holds then is far more than the error that a solve may leave, so that the normal force, by which
+/// friction goes, is known. It bears within a margin outside of the surface: what is not in a solid need not
+/// be put out of it after the step, which would strain the cloth's springs.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
 /// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
@@ -43,11 +47,10 @@ template <class Real>
 class ContactConstraints {
  public:
   /// Nodes that touch or will, and those that arrive at a solid that yields, with forces from the last step;
-  /// positions and velocities as the substep begins. The cloth may be near rest. `bodies` become the solids
-  /// that yield and are touched.
+  /// positions and velocities as the substep begins. `bodies` become the solids that yield and are touched.
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
-             bool near_rest, AttachedBodies<Real>& bodies);
+             AttachedBodies<Real>& bodies);
   /// Between Newton iterations: holds the nodes that are inside at `move` and not held yet, if it takes more
   /// energy than `missed`, J, to push them out one by one against links of this stiffness at a node, N/m.
   /// False if it holds no more than before.
@@ -65,6 +68,9 @@ class ContactConstraints {
   /// After finish: what was held on its side of a body, or of what stands firm if it went less than half
   /// through it, or came off on that side; ordered.
   const std::vector<Touch>& kept_aside() const { return kept_aside_; }
+  /// The energy by which the last system misjudges contact at `move`, J: friction, and springs that were too
+  /// weak to keep their node out of the solid.
+  double error(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
   /// After finish: what impacts and friction took from the cloth in the substep, J.
   double taken(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
   /// After finish: something that stands firm pushed the cloth in the substep.
@@ -94,8 +100,8 @@ class ContactConstraints {
   /// Takes away the constraints that pull their node to the solid at `move`, and brings back those without
   /// which a node is inside. Returns the energy of their springs, J.
   double release_pulling(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies);
-  /// Reads the forces off the solution, and the ways of solids that yield. Returns the nodes pressed onto
-  /// those, in their order.
+  /// Reads the forces off the solution, and the ways of solids that yield. Returns the nodes that are pressed
+  /// onto solids, in their order.
   const std::vector<Touch>& finish(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies,
                                    std::vector<Solid>& solids);
   /// Takes from the velocities what leading nodes out of solids gave them: that is no motion.
@@ -112,7 +118,7 @@ class ContactConstraints {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(constraints_, last_, pressed_, not_held_, kept_aside_, yielding_, substep_, near_rest_);
+    archive(constraints_, last_, pressed_, not_held_, kept_aside_, yielding_, substep_);
   }
 
  private:
@@ -122,48 +128,44 @@ class ContactConstraints {
     std::optional<int> body;  ///< index
     Vec3 arm;                 ///< where the node hangs on the body, from its centre, m; 0: by it
     Vec3 normal;
-    double distance;                ///< that the node must move along the normal, m
-    double led_out;                 ///< of which it is led out of the solid, where it began, m
-    Vec3 solid_move;                ///< in the substep if nothing bends its way, m
-    double holds;                   ///< at most, by friction, N
-    double slid;                    ///< along the surface in the substep, if it goes on as before, m
-    double sliding;                 ///< that is expected, m
-    double width;                   ///< of the solid, its inner radius, m
-    double approach;                ///< to the solid, along the normal, as the substep begins, m/s
-    double stiffness = 0;           ///< N/m
-    double friction_stiffness = 0;  ///< N/m
-    double force = 0;               ///< along the normal, N
+    double distance;                 ///< that the node must move along the normal, m
+    double led_out;                  ///< of which it is led out of the solid, where it began, m
+    Vec3 solid_move;                 ///< in the substep if nothing bends its way, m
+    double width;                    ///< of the solid, its inner radius, m
+    double approach;                 ///< to the solid, along the normal, as the substep begins, m/s
+    double stiffness = 0, most = 0;  ///< as it is, and as it may become, N/m
+    double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
     double last_force = -1, force_before = -1;
-    bool has_stuck = false;  ///< since it touches
-    /// By how much farther it slid in this step, and in the last one, than if it had gone on as it went, m.
-    double gained = 0, gained_before = 0;
-    double speeding_up = 0;  ///< then: by how much more it will slide by what pulls at it, m
     bool released = false;
-    bool pinched = false;  ///< held both ways: another solid keeps the node from leaving this one
-    Vec3 grip{0, 0, 0};    ///< of static friction when the substep begins; after finish, when it ends, N
+    bool pinched = false;    ///< held both ways: another solid keeps the node from leaving this one
+    bool solved = false;     ///< in this substep, once
+    double coefficient = 0;  ///< of friction
+    SurfaceFriction friction{};
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(touch, point, body, arm, normal, distance, led_out, solid_move, holds, slid, sliding, width,
-              approach, stiffness, friction_stiffness, force, last_force, force_before, has_stuck, gained,
-              gained_before, speeding_up, released, pinched, grip);
+      archive(touch, point, body, arm, normal, distance, led_out, solid_move, width, approach, stiffness,
+              most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
     }
-    /// What friction goes by: the median of three steps' forces, the lesser of two, N.
+    /// The median of three steps' forces, the lesser of two, N.
     double usual_force() const;
-    bool sticks() const { return friction_stiffness > 0 && friction_stiffness == stiffness; }
+    /// Along the surface, as it has moved, m.
+    Vec3 slip(const Vec3& moved) const { return across(moved - solid_move, normal); }
+    /// Along the normal as it has moved, N.
+    double force_at(const Vec3& moved) const;
+    /// The most that friction holds as it has moved, N.
+    double holds(const Vec3& moved) const;
   };
-  /// The force along the surface at `moved`, N.
-  static Vec3 friction(const Constraint& c, const Vec3& moved);
   static bool is_before(const Constraint& c, const Touch& touch);
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
+  /// To which what usually presses a contact's spring presses it, and from where it bears, m.
+  double depth() const;
+  double margin() const;
   /// `place` is the point's when the substep begins, `way` its move that `surface` was looked up for.
   Constraint held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                      const Surface& surface, const Vec3& place, const Vec3& way) const;
-  /// By how much more than `slid`, m, a node that has stuck will slide in the substep by what pulled at it in
-  /// the last one, when `last` held it, but for a friction of `holds`, N.
-  double speeding_up(const Constraint& last, double slid, double holds, double mass) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
   bool lay_on(const Solid& solid, const Vec3& place) const;
@@ -179,7 +181,6 @@ class ContactConstraints {
   std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   Substep substep_;
-  bool near_rest_ = false;
 };
 
 extern template class ContactConstraints<float>;

@@ -9,10 +9,13 @@
 namespace weft {
 namespace {
 
-/// Stiffness of a contact, as multiples of the links' and of the inertia's at the node. More would cost
-/// digits in single precision; the inertia's alone leaves a depth of at most g h^2 / 100 under a cloth's own
-/// weight, 27 micrometres at 60 Hz, which Contact::resolve takes away.
-constexpr double kLinkMultiple = 1, kInertiaMultiple = 100;
+/// To which a contact's usual force presses its spring, of the way that gravity gives in a substep: so stiff
+/// that it follows within a substep, and no stiffer, since a solve must tell its force (ContactConstraints).
+constexpr double kDepth = 0.04;
+/// A spring bears from so many depths outside of the surface.
+constexpr double kMargin = 2;
+/// At most, as a multiple of the links' stiffness at the node; more would cost digits in single precision.
+constexpr double kLinkMultiple = 1;
 
 /// At most so many times the inertia of a torn piece is a contact's part of the links. A flake of a node or
 /// two has but its inertia along a surface, and the last digits of the stiffness across it: with all of it
@@ -41,8 +44,28 @@ void add_block(const kernels::Blocks<Real>& blocks, std::size_t i, const Eigen::
 }  // namespace
 
 template <class Real>
-Vec3 ContactConstraints<Real>::friction(const Constraint& c, const Vec3& moved) {
-  return c.grip + c.friction_stiffness * across(c.solid_move - moved, c.normal);
+double ContactConstraints<Real>::depth() const {
+  return kDepth * standard_gravity().norm() * substep_.seconds * substep_.seconds;
+}
+
+template <class Real>
+double ContactConstraints<Real>::margin() const {
+  return kMargin * depth();
+}
+
+template <class Real>
+double ContactConstraints<Real>::Constraint::force_at(const Vec3& moved) const {
+  const double depth = distance - normal.dot(moved);
+  return released ? 0 : stiffness * (pinched ? std::abs(depth) : std::max(0.0, depth));
+}
+
+/// Before it is solved for by the lesser of the last two forces: one of them may be an impact's. A body's
+/// springs are so stiff that a solve does not tell their force: there the last two are all that is known.
+template <class Real>
+double ContactConstraints<Real>::Constraint::holds(const Vec3& moved) const {
+  if (solved && !body) return coefficient * force_at(moved);
+  const double usual = force_before < 0 && !body ? last_force : std::min(last_force, force_before);
+  return coefficient * std::max(0.0, usual);
 }
 
 /// As seen from a solid whose way is not bent.
@@ -67,14 +90,17 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     c.point.for_each_node([&](std::size_t i, double) {
       if (!piece_mass.empty()) links = std::min(links, inertia_rate * piece_mass[i]);
     });
-    c.stiffness = kLinkMultiple * links + kInertiaMultiple * c.point.resistance(diagonal);
-    const Vec3 moved = move_of(c, move, bodies);
-    // Sticking is a spring as stiff as the contact; what would be more than friction holds, slides.
-    const bool slides = c.holds < c.stiffness * c.sliding;
-    c.friction_stiffness = slides ? c.holds / c.sliding : c.holds > 0 ? c.stiffness : 0;
-    if (slides) c.grip.setZero();
-    const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction_stiffness);
-    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + friction(c, moved);
+    const double inertia = c.point.resistance(diagonal);
+    const Vec3 moved = move_of(c, move, bodies), slip = c.slip(moved);
+    const double holds = c.holds(moved);
+    const double bears = std::max(c.last_force < 0 ? 0 : c.usual_force(), c.solved ? c.force_at(moved) : 0);
+    const double least = inertia / kDepth;
+    c.most = kLinkMultiple * links + least;
+    c.stiffness = c.body ? c.most : std::clamp(bears / depth(), least, c.most);
+    c.friction.linearise(slip, holds, c.stiffness, inertia);
+    c.solved = true;
+    const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction.rate());
+    const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + c.friction.force(slip);
     if (c.touch.point().between_nodes()) {
       couplings.add({c.point.nodes(), c.point.moves(), stiffness});
     } else {
@@ -101,6 +127,20 @@ void ContactConstraints<Real>::append_springs(kernels::Components<const Real> mo
 }
 
 template <class Real>
+double ContactConstraints<Real>::error(kernels::Components<const Real> move,
+                                       const AttachedBodies<Real>& bodies) const {
+  double energy = 0;
+  for (const Constraint& c : constraints_) {
+    if (c.released || !c.solved) continue;
+    const Vec3 moved = move_of(c, move, bodies);
+    energy += c.friction.error(c.slip(moved), c.holds(moved));
+    const double inside = c.distance - c.normal.dot(moved) - margin();
+    if (inside > 0 && c.stiffness < c.most && !c.pinched) energy += c.most * inside * inside / 2;
+  }
+  return energy;
+}
+
+template <class Real>
 double ContactConstraints<Real>::release_pulling(kernels::Components<const Real> move,
                                                  const AttachedBodies<Real>& bodies) {
   double energy = 0;
@@ -121,11 +161,9 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
   kept_aside_.clear();
   for (Constraint& c : constraints_) {
     const Vec3 moved = move_of(c, move, bodies);
-    const double depth = c.distance - c.normal.dot(moved);
-    c.gained = across(moved - c.solid_move, c.normal).norm() - c.slid;
-    c.grip = friction(c, moved);
-    c.force = c.released ? 0 : c.stiffness * (c.pinched ? std::abs(depth) : std::max(0.0, depth));
-    if (c.body && c.force > 0) pressed_.push_back(c.touch);
+    c.force = c.force_at(moved);
+    c.friction.end(c.slip(moved), c.holds(moved));
+    if (c.force > 0) pressed_.push_back(c.touch);
     const bool turning = c.body && solid_of(c.touch, solids).yields_turning();
     // A node that passes less than half through a solid is not pushed back to the face that it came from:
     // around an edge that would stretch its links.
@@ -141,8 +179,8 @@ double ContactConstraints<Real>::taken(kernels::Components<const Real> move,
                                        const AttachedBodies<Real>& bodies) const {
   double energy = 0;
   for (const Constraint& c : constraints_) {
-    const Vec3 slip = across(move_of(c, move, bodies) - c.solid_move, c.normal);
-    energy -= c.grip.dot(slip);
+    const Vec3 slip = c.slip(move_of(c, move, bodies));
+    energy -= c.friction.grip().dot(slip);
     if (c.force > 0 && c.approach > 0) energy += c.point.mass() * c.approach * c.approach / 2;
   }
   return energy;
@@ -167,7 +205,8 @@ void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocit
   }
 }
 
-template Vec3 ContactConstraints<float>::friction(const Constraint&, const Vec3&);
+template double ContactConstraints<float>::depth() const;
+template double ContactConstraints<float>::margin() const;
 template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Components<const float>,
                                                  const AttachedBodies<float>&);
 template void ContactConstraints<float>::add_to(kernels::Blocks<float>, NodeCouplings<float>&,
@@ -178,6 +217,8 @@ template void ContactConstraints<float>::append_springs(kernels::Components<cons
                                                         kernels::Components<const float>,
                                                         const AttachedBodies<float>&,
                                                         std::vector<OneSidedSpring>&) const;
+template double ContactConstraints<float>::error(kernels::Components<const float>,
+                                                 const AttachedBodies<float>&) const;
 template double ContactConstraints<float>::release_pulling(kernels::Components<const float>,
                                                            const AttachedBodies<float>&);
 template const std::vector<Touch>& ContactConstraints<float>::finish(kernels::Components<const float>,
@@ -188,7 +229,8 @@ template double ContactConstraints<float>::taken(kernels::Components<const float
 template std::vector<Solid> ContactConstraints<float>::bent(std::vector<Solid>,
                                                             const AttachedBodies<float>&) const;
 template void ContactConstraints<float>::keep_velocities(kernels::Components<float>) const;
-template Vec3 ContactConstraints<double>::friction(const Constraint&, const Vec3&);
+template double ContactConstraints<double>::depth() const;
+template double ContactConstraints<double>::margin() const;
 template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Components<const double>,
                                                   const AttachedBodies<double>&);
 template void ContactConstraints<double>::add_to(kernels::Blocks<double>, NodeCouplings<double>&,
@@ -199,6 +241,8 @@ template void ContactConstraints<double>::append_springs(kernels::Components<con
                                                          kernels::Components<const double>,
                                                          const AttachedBodies<double>&,
                                                          std::vector<OneSidedSpring>&) const;
+template double ContactConstraints<double>::error(kernels::Components<const double>,
+                                                  const AttachedBodies<double>&) const;
 template double ContactConstraints<double>::release_pulling(kernels::Components<const double>,
                                                             const AttachedBodies<double>&);
 template const std::vector<Touch>& ContactConstraints<double>::finish(kernels::Components<const double>,

@@ -333,7 +333,8 @@ TEST(ImplicitSlow, ErrorsNearRestAreASmallShareOfTheMotion) {
 }
 
 // A ball carries a free sheet upwards at 1 m/s and then leaves downwards at 5 m/s: it may push, never pull.
-// The sheet goes on at the 1 m/s it has.
+// The sheet goes on at the 1 m/s it has, but for what a contact gives in a step (DECISIONS.md, kDepth): 0.04
+// g h.
 TEST(Implicit, BallThatLeavesLetsTheSheetGo) {
   SimulationDescription scene;
   ClothDescription cloth;
@@ -349,10 +350,12 @@ TEST(Implicit, BallThatLeavesLetsTheSheetGo) {
   scene.integrator = exactly<BackwardEulerDescription>();
   Simulation<double> simulation(scene);
   const auto speed = [&] { return linear_momentum(simulation.cloths()[0].particles()).y() / (0.1 * 0.04); };
+  const double gives = 0.04 * 9.81 / 60;
   for (int step = 0; step < 6; ++step) simulation.step();
-  EXPECT_NEAR(speed(), 1, 1e-3);
+  EXPECT_NEAR(speed(), 1, gives);
+  const double carried = speed();
   for (int step = 0; step < 6; ++step) simulation.step();
-  EXPECT_NEAR(speed(), 1, 1e-3);
+  EXPECT_NEAR(speed(), carried, 1e-9) << "nothing pulls";
 }
 
 }  // namespace

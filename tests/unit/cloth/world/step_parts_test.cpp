@@ -108,7 +108,8 @@ TEST(StepsInParts, AreThoseOfBodiesOnCloth) {
     if (above == 0) {
       scene.balls = {flying_ball(place, 0.1, {speed, -0.5, 0})};
     } else {
-      scene.balls = {flying_ball(place, 0.1), flying_ball(place + Vec3(0, above, 0), 0.1, {0, 0, speed})};
+      scene.balls = {flying_ball(place, 0.1, {0, -0.5, 0}),
+                     flying_ball(place + Vec3(0, above, 0), 0.1, {0, 0, speed})};
     }
     return scene;
   };

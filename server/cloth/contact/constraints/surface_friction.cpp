@@ -1,0 +1,63 @@
+#include "cloth/contact/constraints/surface_friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// The nearer to zero of two numbers of one sign; 0 if they differ in it. A gain that lasts is trusted, one
+/// that a single step's rounding gave is not.
+double minmod(double a, double b) {
+  if (a * b <= 0) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+}  // namespace
+
+void SurfaceFriction::go_on_from(const SurfaceFriction& last, const Vec3& normal) {
+  lasts_ = true;
+  grip_ = across(last.grip_, normal);
+  gained_ = last.gained_;
+  gained_before_ = last.gained_before_;
+}
+
+double SurfaceFriction::expected_stretch() const {
+  return std::max(0.0, stretch(going_on_).norm() + minmod(gained_, gained_before_));
+}
+
+void SurfaceFriction::hold_at(double stretch, double holds) {
+  rate_ = holds <= 0 ? 0 : stretch * stiffness_ <= holds ? stiffness_ : holds / stretch;
+}
+
+void SurfaceFriction::linearise(const Vec3& slip, double holds, double stiffness, double inertia) {
+  if (!std::exchange(solved_, true)) {
+    stiffness_ = stiffness;
+    if (lasts_) {
+      hold_at(expected_stretch(), holds);
+    } else {
+      hold_at(std::max(0.0, going_on_.norm() - stopped_), inertia * stopped_);
+    }
+    return;
+  }
+  double stretched = stretch(slip).norm();
+  const double pull = rate_ * stretched;
+  if (rate_ == stiffness_ && pull > holds) stretched += (pull - holds) / inertia;
+  stiffness_ = stiffness;
+  hold_at(stretched, holds);
+}
+
+double SurfaceFriction::error(const Vec3& slip, double holds) const {
+  const double stretched = stretch(slip).norm();
+  return std::abs(rate_ * stretched - std::min(stiffness_ * stretched, holds)) * slip.norm() / 2;
+}
+
+void SurfaceFriction::end(const Vec3& slip, double holds) {
+  if (!solved_) return;
+  hold_at(stretch(slip).norm(), holds);
+  grip_ = force(slip);
+  gained_before_ = std::exchange(gained_, slip.norm() - going_on_.norm());
+}
+
+}  // namespace weft
