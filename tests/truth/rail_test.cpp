@@ -68,7 +68,10 @@ TEST_P(SmoothRail, AStripSlidesAsAChainOverAPulley) {
   const double time = kSteps / 60.0, rate = std::sqrt(2 * 9.81 / kStripLength);
   const double differ = kStripLength - std::numbers::pi * kRail - 2 * kShorter;
   const double way = differ / 2 * (std::cosh(rate * time) - 1);
-  EXPECT_NEAR(begin - lower_end(), way, 0.1 * way) << way << " m";
+  // Or by what it goes in the last step: backward Euler is of first order.
+  const double last_step = differ / 2 * rate * std::sinh(rate * time) / 60;
+  const bool first_order = std::holds_alternative<BackwardEulerDescription>(GetParam());
+  EXPECT_NEAR(begin - lower_end(), way, first_order ? last_step : 0.1 * way) << way << " m";
   EXPECT_NEAR(simulation.cloths()[0].particles().position_at(kCellsOver, 4).x(), -kRail, 0.1 * way)
       << "it hangs where it hung";
 }

@@ -54,7 +54,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     state_->motion.measure(particles);
     if (contact != nullptr) {
       contacts.begin(contact->expect(particles, solids, part), contact->foresee(particles, solids, part),
-                     particles, solids, part, state_->system.bodies());
+                     particles, solids, part, state_->motion.near_rest(), state_->system.bodies());
     } else {
       contacts.clear();
       state_->system.bodies().clear();

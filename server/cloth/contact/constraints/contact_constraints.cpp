@@ -18,7 +18,8 @@ double touching_distance(double seconds) { return standard_gravity().norm() * se
 template <class Real>
 void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
                                      const Particles<Real>& particles, const std::vector<Solid>& solids,
-                                     const Substep& substep, AttachedBodies<Real>& bodies) {
+                                     const Substep& substep, bool near_rest, AttachedBodies<Real>& bodies) {
+  near_rest_ = near_rest;
   std::swap(last_, constraints_);
   clear();
   bodies.clear();
@@ -116,7 +117,8 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   if (held) {
     made.last_force = same->force;
     made.force_before = same->last_force;
-    made.friction.go_on_from(same->friction, normal);
+    made.friction.go_on_from(same->friction);
+    if (!solid.yields() || near_rest_) made.friction.keep_force_of(same->friction, normal);
   }
   return made;
 }

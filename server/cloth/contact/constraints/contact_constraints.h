@@ -28,8 +28,9 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// be put out of it after the step, which would strain the cloth's springs.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
-/// backward Euler as they are. Held for a body that nothing moves, and given the impulses afterwards, one
-/// that is heavier than they are would gain energy without bound.
+/// backward Euler as they are. Its springs are stiff, without a margin, and friction on it has no memory:
+/// what a force that no solve tells would keep shakes a pile for ever. Held for a body that nothing moves,
+/// and given the impulses afterwards, one that is heavier than they are would gain energy without bound.
 ///
 /// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
 /// does: both would squeeze it out sideways and stretch its springs without doing work. It is not released
@@ -47,10 +48,11 @@ template <class Real>
 class ContactConstraints {
  public:
   /// Nodes that touch or will, and those that arrive at a solid that yields, with forces from the last step;
-  /// positions and velocities as the substep begins. `bodies` become the solids that yield and are touched.
+  /// positions and velocities as the substep begins. The cloth may be near rest. `bodies` become the solids
+  /// that yield and are touched.
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
-             AttachedBodies<Real>& bodies);
+             bool near_rest, AttachedBodies<Real>& bodies);
   /// Between Newton iterations: holds the nodes that are inside at `move` and not held yet, if it takes more
   /// energy than `missed`, J, to push them out one by one against links of this stiffness at a node, N/m.
   /// False if it holds no more than before.
@@ -118,7 +120,7 @@ class ContactConstraints {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(constraints_, last_, pressed_, not_held_, kept_aside_, yielding_, substep_);
+    archive(constraints_, last_, pressed_, not_held_, kept_aside_, yielding_, substep_, near_rest_);
   }
 
  private:
@@ -181,6 +183,7 @@ class ContactConstraints {
   std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   Substep substep_;
+  bool near_rest_ = false;
 };
 
 extern template class ContactConstraints<float>;

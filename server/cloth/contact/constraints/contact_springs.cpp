@@ -11,11 +11,13 @@ namespace {
 
 /// To which a contact's usual force presses its spring, of the way that gravity gives in a substep: so stiff
 /// that it follows within a substep, and no stiffer, since a solve must tell its force (ContactConstraints).
-constexpr double kDepth = 0.04;
+constexpr double kDepth = 1.0 / 32;
 /// A spring bears from so many depths outside of the surface.
 constexpr double kMargin = 2;
 /// At most, as a multiple of the links' stiffness at the node; more would cost digits in single precision.
 constexpr double kLinkMultiple = 1;
+/// A body is held by that and this multiple of the node's inertia: it bears far more than the node weighs.
+constexpr double kBodyMultiple = 100;
 
 /// At most so many times the inertia of a torn piece is a contact's part of the links. A flake of a node or
 /// two has but its inertia along a surface, and the last digits of the stiffness across it: with all of it
@@ -60,7 +62,8 @@ double ContactConstraints<Real>::Constraint::force_at(const Vec3& moved) const {
 }
 
 /// Before it is solved for by the lesser of the last two forces: one of them may be an impact's. A body's
-/// springs are so stiff that a solve does not tell their force: there the last two are all that is known.
+/// springs are so stiff that a solve does not tell their force: there the last two are all that is known, and
+/// friction is taken by them once a substep.
 template <class Real>
 double ContactConstraints<Real>::Constraint::holds(const Vec3& moved) const {
   if (solved && !body) return coefficient * force_at(moved);
@@ -95,9 +98,9 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     const double holds = c.holds(moved);
     const double bears = std::max(c.last_force < 0 ? 0 : c.usual_force(), c.solved ? c.force_at(moved) : 0);
     const double least = inertia / kDepth;
-    c.most = kLinkMultiple * links + least;
-    c.stiffness = c.body ? c.most : std::clamp(bears / depth(), least, c.most);
-    c.friction.linearise(slip, holds, c.stiffness, inertia);
+    c.most = kLinkMultiple * links + (c.body ? kBodyMultiple * inertia : least);
+    c.stiffness = c.body || c.pinched ? c.most : std::clamp(bears / depth(), least, c.most);
+    if (!c.body || !c.solved) c.friction.linearise(slip, holds, c.stiffness, inertia);
     c.solved = true;
     const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction.rate());
     const Vec3 force = c.stiffness * (c.distance - c.normal.dot(moved)) * c.normal + c.friction.force(slip);
@@ -133,7 +136,7 @@ double ContactConstraints<Real>::error(kernels::Components<const Real> move,
   for (const Constraint& c : constraints_) {
     if (c.released || !c.solved) continue;
     const Vec3 moved = move_of(c, move, bodies);
-    energy += c.friction.error(c.slip(moved), c.holds(moved));
+    if (!c.body) energy += c.friction.error(c.slip(moved), c.holds(moved));
     const double inside = c.distance - c.normal.dot(moved) - margin();
     if (inside > 0 && c.stiffness < c.most && !c.pinched) energy += c.most * inside * inside / 2;
   }

@@ -16,11 +16,14 @@ double minmod(double a, double b) {
 
 }  // namespace
 
-void SurfaceFriction::go_on_from(const SurfaceFriction& last, const Vec3& normal) {
+void SurfaceFriction::go_on_from(const SurfaceFriction& last) {
   lasts_ = true;
-  grip_ = across(last.grip_, normal);
   gained_ = last.gained_;
   gained_before_ = last.gained_before_;
+}
+
+void SurfaceFriction::keep_force_of(const SurfaceFriction& last, const Vec3& normal) {
+  grip_ = across(last.grip_, normal);
 }
 
 double SurfaceFriction::expected_stretch() const {

@@ -20,7 +20,9 @@ class SurfaceFriction {
   /// in.
   SurfaceFriction(const Vec3& slip, double stopped) : going_on_(slip), stopped_(stopped) {}
   /// The contact was there in the last step, when its friction ended up as `last`.
-  void go_on_from(const SurfaceFriction& last, const Vec3& normal);
+  void go_on_from(const SurfaceFriction& last);
+  /// And what it holds by then it holds by now, along the surface with this normal.
+  void keep_force_of(const SurfaceFriction& last, const Vec3& normal);
 
   /// For the next linear system, where it has slipped by `slip`, m, in the substep: friction holds at most
   /// `holds`, N, by a spring of `stiffness`, N/m. `inertia` is the node's resistance to a move, N/m.

@@ -23,7 +23,9 @@ class OnGround {
   Touch touch() const { return {middle(), kFirstObstacle}; }
   void set_velocity(const Vec3& velocity) { set(sheet_.velocity, 1, 1, velocity); }
   std::vector<Solid>& solids() { return solids_; }
-  void begin() { contacts.begin({touch()}, {}, sheet_, solids_, Substep{0, 1, kConstraintStep}, bodies); }
+  void begin() {
+    contacts.begin({touch()}, {}, sheet_, solids_, Substep{0, 1, kConstraintStep}, false, bodies);
+  }
   /// The middle node's block and right-hand side in the system at its move.
   struct System {
     Eigen::Matrix3d block;
@@ -68,9 +70,9 @@ class OnGround {
   std::vector<Solid> solids_;
 };
 
-// DECISIONS.md: 25 times as stiff as the inertia where it is not known what it bears, from 0.08 g h^2 outside
+// DECISIONS.md: 32 times as stiff as the inertia where it is not known what it bears, from g h^2 / 16 outside
 // of the surface on; what it bears presses it by half of that.
-constexpr double kWeak = 25 * kInertia, kPressed = 0.04 * 9.81 * kConstraintStep * kConstraintStep,
+constexpr double kWeak = 32 * kInertia, kPressed = 9.81 / 32 * kConstraintStep * kConstraintStep,
                  kBears = 2 * kPressed;
 
 TEST(ContactConstraints, HoldANodeAlongTheNormalAlone) {

@@ -15,7 +15,8 @@ SurfaceFriction after(double slipped) {
   first.linearise({0, 0, 0}, kHolds, kStuckStiffness, kHeldInertia);
   first.end({slipped, 0, 0}, kHolds);
   SurfaceFriction friction({0, 0, 0}, 0);
-  friction.go_on_from(first, {0, 0, 1});
+  friction.go_on_from(first);
+  friction.keep_force_of(first, {0, 0, 1});
   return friction;
 }
 
@@ -37,12 +38,14 @@ TEST(SurfaceFriction, KeepsItsForceFromStepToStep) {
   last.linearise({0, 0, 0}, kHolds, kStuckStiffness, kHeldInertia);
   last.end({3e-4, 0, 0}, kHolds);
   SurfaceFriction friction({0, 0, 0}, 0);
-  friction.go_on_from(last, {0, 0, 1});
+  friction.go_on_from(last);
+  friction.keep_force_of(last, {0, 0, 1});
   friction.linearise({0, 0, 0}, kHolds, kStuckStiffness, kHeldInertia);
   EXPECT_NEAR(friction.force({0, 0, 0}).x(), -kStuckStiffness * 3e-4, 1e-12);
   // The surface has turned: what would now point out of it is no friction.
   SurfaceFriction turned({0, 0, 0}, 0);
-  turned.go_on_from(last, {1, 0, 0});
+  turned.go_on_from(last);
+  turned.keep_force_of(last, {1, 0, 0});
   turned.linearise({0, 0, 0}, kHolds, kStuckStiffness, kHeldInertia);
   EXPECT_NEAR(turned.force({0, 0, 0}).norm(), 0, 1e-12);
 }
