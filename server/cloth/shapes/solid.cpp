@@ -21,8 +21,6 @@ void Solid::go_on(const Vec3& with, const Vec3& spinning, double fraction, doubl
   rotation = turned(1 - fraction) * rotation;
 }
 
-double Solid::gap(const Vec3& node, double from) const {
-  return placed(from).surface(node).distance;
-}
+double Solid::gap(const Vec3& node, double from) const { return placed(from).surface(node).distance; }
 
 }  // namespace weft
