@@ -19,8 +19,8 @@ inline constexpr std::size_t kMostLargestHoles = 4;
 /// between the border's vertices: ears are cut off in the plane that fits it best (Meisters, Polygons Have
 /// Ears, 1975). A border that crosses itself there is filled by triangles about its middle. Vertices in one
 /// place are one. Throws std::invalid_argument, saying what is wrong and where, as TriangleMesh does, and
-/// where a hole has more edges than kMostHoleEdges or all are more than kMostLargestHoles allow, or the filled surface encloses nothing, as that of a flat
-/// sheet.
+/// where a hole has more edges than kMostHoleEdges or all are more than kMostLargestHoles allow, or the
+/// filled surface encloses nothing, as that of a flat sheet.
 FilledSurface fill_holes(const TriangleList& list);
 
 }  // namespace weft::scene

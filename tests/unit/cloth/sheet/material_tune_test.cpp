@@ -239,8 +239,8 @@ TEST(FrictionTuneSlow, LetsASheetGoThatItHeld) {
     ASSERT_TRUE(simulation.set_obstacle_friction(0, 0.2));
     many_steps(simulation, 60);
     const double slid = (simulation.centre(0) - held).norm();
-    // For 1 s, but for two steps: so many may implicit friction take to see it, and so far ahead of the time is
-    // backward Euler, by which nodes in contact go (half a step, and what the ledger gives back of it).
+    // For 1 s, but for two steps: so many may implicit friction take to see it, and so far ahead of the time
+    // is backward Euler, by which nodes in contact go (half a step, and what the ledger gives back of it).
     const double acceleration = 9.81 * (0.5 - 0.2 * std::sqrt(3.0) / 2);
     const double off = 2.0 / 60;
     EXPECT_LT(slid, acceleration / 2 * (1 + off) * (1 + off));
