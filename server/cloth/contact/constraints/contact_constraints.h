@@ -28,9 +28,10 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// be put out of it after the step, which would strain the cloth's springs.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
-/// backward Euler as they are. Its springs are stiff, without a margin, and friction on it has no memory:
-/// what a force that no solve tells would keep shakes a pile for ever. Held for a body that nothing moves,
-/// and given the impulses afterwards, one that is heavier than they are would gain energy without bound.
+/// backward Euler as they are. Its springs are stiff, without a margin, and friction on it has no memory
+/// but near rest: what a force that no solve tells would keep shakes a pile for ever. Held for a body that
+/// nothing moves, and given the impulses afterwards, one that is heavier than they are would gain energy
+/// without bound.
 ///
 /// Between two solids that leave it no room a node is held by the one that moves least, as Contact::resolve
 /// does: both would squeeze it out sideways and stretch its springs without doing work. It is not released
