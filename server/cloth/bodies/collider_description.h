@@ -32,6 +32,8 @@ struct NamedLength {
   const char* name;
   Member member;
 };
+template <class Member>
+NamedLength(const char*, Member) -> NamedLength<Member>;
 
 // A shape that scene files may name: its `orientation`, the Shape it is and, unless it is a plane or a mesh,
 // its lengths(), by which it is read and told to viewers.

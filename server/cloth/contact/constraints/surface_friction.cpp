@@ -35,6 +35,7 @@ void SurfaceFriction::hold_at(double stretch, double holds) {
 }
 
 void SurfaceFriction::linearise(const Vec3& slip, double holds, double stiffness, double inertia) {
+  inertia_ = inertia;
   if (!std::exchange(solved_, true)) {
     stiffness_ = stiffness;
     if (lasts_) {
@@ -52,8 +53,10 @@ void SurfaceFriction::linearise(const Vec3& slip, double holds, double stiffness
 }
 
 double SurfaceFriction::error(const Vec3& slip, double holds) const {
-  const double stretched = stretch(slip).norm();
-  return std::abs(rate_ * stretched - std::min(stiffness_ * stretched, holds)) * slip.norm() / 2;
+  const double stretched = stretch(slip).norm(), pull = rate_ * stretched;
+  // Let go, the node alone would go farther than the spring lets it.
+  if (pull > holds) return (pull - holds) * (pull - holds) / (2 * inertia_);
+  return std::abs(pull - std::min(stiffness_ * stretched, holds)) * slip.norm() / 2;
 }
 
 void SurfaceFriction::end(const Vec3& slip, double holds) {

@@ -40,7 +40,8 @@ class SurfaceFriction {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(grip_, going_on_, stopped_, gained_, gained_before_, stiffness_, rate_, lasts_, solved_);
+    archive(grip_, going_on_, stopped_, gained_, gained_before_, stiffness_, rate_, inertia_, lasts_,
+            solved_);
   }
 
  private:
@@ -56,6 +57,7 @@ class SurfaceFriction {
   /// m.
   double gained_ = 0, gained_before_ = 0;
   double stiffness_ = 0, rate_ = 0;  ///< of the spring that sticks, and as it is taken, N/m
+  double inertia_ = 0;               ///< of the node, N/m
   bool lasts_ = false;               ///< it was there in the last step
   bool solved_ = false;              ///< in this substep, once
 };
