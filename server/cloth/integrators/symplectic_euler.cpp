@@ -70,7 +70,8 @@ int stable_substeps(double squared_frequency, double damping_rate, double dt, do
 template <class Real>
 auto SymplecticEuler<Real>::plan(const Particles<Real>& particles, const Forces<Real>& forces, double dt)
     -> Plan {
-  const auto [squared_frequency, of_springs, sheet_rate] = forces.sheet->explicit_bounds(particles.mass);
+  const ExplicitBounds bounds = forces.sheet->explicit_bounds(particles.mass);
+  const double squared_frequency = bounds.squared_frequency, sheet_rate = bounds.damping_rate;
   const DampingRates effects = forces.max_damping_rates(particles);
   const auto plan_for = [&](int substeps, double rate) -> Plan {
     const double h = dt / substeps, room = 4 - squared_frequency * h * h;
@@ -88,7 +89,7 @@ auto SymplecticEuler<Real>::plan(const Particles<Real>& particles, const Forces<
   };
   const int substeps = fewest(rate);
   const int turning =
-      refinement(forces.sheet->springs().motion(particles), std::sqrt(of_springs), dt / substeps);
+      refinement(forces.sheet->springs().motion(particles), std::sqrt(bounds.of_springs), dt / substeps);
   const auto refined = [&](int count) { return std::min(count * turning, kMaxSubsteps); };
   if (forces.any_slow()) {
     // What comes in blows sets no limit to the substeps between them.
