@@ -296,7 +296,7 @@ void end_websocket_sessions(NetworkLoop& loop) {
   }
 }
 
-void end_websocket_sessions_in(Context& context, std::shared_ptr<const host::SceneRunner> scene) {
+void end_websocket_sessions_in(Context& context, const std::shared_ptr<const host::SceneRunner>& scene) {
   for (const auto& loop : context.loops) {
     asio::post(loop->io(), [&loop = *loop, scene] {
       for (WebsocketSession* viewer : copy_of_viewers(loop)) {

@@ -15,7 +15,7 @@ void start_websocket_session(Context& context, Berth berth, ConnectionPool::Plac
 void end_websocket_sessions(NetworkLoop& loop);
 
 /// Ends those that are in the scene, which is no more: 4005. From any thread, soon.
-void end_websocket_sessions_in(Context& context, std::shared_ptr<const host::SceneRunner> scene);
+void end_websocket_sessions_in(Context& context, const std::shared_ptr<const host::SceneRunner>& scene);
 
 /// On its loop's thread: the session looks what is to be sent.
 void send_what_waits(WebsocketSession& session);

@@ -119,7 +119,7 @@ StartMesh read_mesh_at(const GltfDocument& document, const StretchNode& stretch,
         std::vector<double> u;
         for (std::size_t i = 0; i < uv.size(); i += 2) u.push_back(uv[i]);
         for (std::size_t i = 0; i < positions.size(); i += 3)
-          mesh.nodes.push_back(stretch.place + Vec3(&positions[i]));
+          mesh.nodes.emplace_back(stretch.place + Vec3(&positions[i]));
         set_grid(mesh, u);
       });
     });

@@ -71,7 +71,7 @@ StartMesh read_usda_start(std::string_view text, const StartChoice& choice) {
   if (auto told = after(prim, "double3 xformOp:translate = ")) place = Vec3(take_numbers<3>(*told).data());
   StartMesh mesh;
   for (const auto& point : tuples<3>(points[chosen_frame(choice, times)]))
-    mesh.nodes.push_back(place + Vec3(point.data()));
+    mesh.nodes.emplace_back(place + Vec3(point.data()));
   std::vector<double> u;
   if (const auto told = after(prim, "texCoord2f[] primvars:st = ")) {
     for (const auto& st : tuples<2>(*told)) u.push_back(st[0]);

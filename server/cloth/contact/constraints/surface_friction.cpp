@@ -55,7 +55,7 @@ void SurfaceFriction::linearise(const Vec3& slip, double holds, double stiffness
 double SurfaceFriction::error(const Vec3& slip, double holds) const {
   const double stretched = stretch(slip).norm(), pull = rate_ * stretched;
   // Let go, the node alone would go farther than the spring lets it.
-  if (pull > holds) return (pull - holds) * (pull - holds) / (2 * inertia_);
+  if (rate_ == stiffness_ && pull > holds) return (pull - holds) * (pull - holds) / (2 * inertia_);
   return std::abs(pull - std::min(stiffness_ * stretched, holds)) * slip.norm() / 2;
 }
 
