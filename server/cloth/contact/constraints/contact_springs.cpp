@@ -209,6 +209,8 @@ void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocit
 }
 
 template double ContactConstraints<float>::depth() const;
+template double ContactConstraints<float>::Constraint::force_at(const Vec3&) const;
+template double ContactConstraints<float>::Constraint::holds(const Vec3&) const;
 template double ContactConstraints<float>::margin() const;
 template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Components<const float>,
                                                  const AttachedBodies<float>&);
@@ -233,6 +235,8 @@ template std::vector<Solid> ContactConstraints<float>::bent(std::vector<Solid>,
                                                             const AttachedBodies<float>&) const;
 template void ContactConstraints<float>::keep_velocities(kernels::Components<float>) const;
 template double ContactConstraints<double>::depth() const;
+template double ContactConstraints<double>::Constraint::force_at(const Vec3&) const;
+template double ContactConstraints<double>::Constraint::holds(const Vec3&) const;
 template double ContactConstraints<double>::margin() const;
 template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Components<const double>,
                                                   const AttachedBodies<double>&);
