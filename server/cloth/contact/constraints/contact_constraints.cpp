@@ -123,14 +123,6 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   return made;
 }
 
-/// Median of this step's force and the last two: an impact's is many times the usual one.
-template <class Real>
-double ContactConstraints<Real>::Constraint::usual_force() const {
-  if (last_force < 0) return force;
-  if (force_before < 0) return std::min(force, last_force);
-  return std::max(std::min(force, last_force), std::min(std::max(force, last_force), force_before));
-}
-
 /// This solid, or one that faces it, holds the node.
 template <class Real>
 bool ContactConstraints<Real>::holds_already(const Touch& touch, const Vec3& normal) const {

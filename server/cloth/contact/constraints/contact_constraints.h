@@ -151,8 +151,8 @@ class ContactConstraints {
       archive(touch, point, body, arm, normal, distance, led_out, solid_move, width, approach, stiffness,
               most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
     }
-    /// The median of three steps' forces, the lesser of two, N.
-    double usual_force() const;
+    /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
+    double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }
     /// Along the surface, as it has moved, m.
     Vec3 slip(const Vec3& moved) const { return across(moved - solid_move, normal); }
     /// Along the normal as it has moved, N.

@@ -61,14 +61,13 @@ double ContactConstraints<Real>::Constraint::force_at(const Vec3& moved) const {
   return released ? 0 : stiffness * (pinched ? std::abs(depth) : std::max(0.0, depth));
 }
 
-/// Before it is solved for by the lesser of the last two forces: one of them may be an impact's. A body's
-/// springs are so stiff that a solve does not tell their force: there the last two are all that is known, and
-/// friction is taken by them once a substep.
+/// Before a first solve of the substep by the usual force. A body's springs are so stiff that no solve tells
+/// their force: there it is the usual one all along, and friction is looked for once a substep.
 template <class Real>
 double ContactConstraints<Real>::Constraint::holds(const Vec3& moved) const {
-  if (solved && !body) return coefficient * force_at(moved);
-  const double usual = force_before < 0 && !body ? last_force : std::min(last_force, force_before);
-  return coefficient * std::max(0.0, usual);
+  if (body) return coefficient * usual_force();
+  if (solved) return coefficient * force_at(moved);
+  return coefficient * (force_before < 0 ? std::max(0.0, last_force) : usual_force());
 }
 
 /// As seen from a solid whose way is not bent.
@@ -96,7 +95,7 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     const double inertia = c.point.resistance(diagonal);
     const Vec3 moved = move_of(c, move, bodies), slip = c.slip(moved);
     const double holds = c.holds(moved);
-    const double bears = std::max(c.last_force < 0 ? 0 : c.usual_force(), c.solved ? c.force_at(moved) : 0);
+    const double bears = std::max(c.usual_force(), c.solved ? c.force_at(moved) : 0);
     const double least = inertia / kDepth;
     c.most = kLinkMultiple * links + (c.body ? kBodyMultiple * inertia : least);
     c.stiffness = c.body || c.pinched ? c.most : std::clamp(bears / depth(), least, c.most);
