@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/kernels/node_kernels.h"
 #include "cloth/sheet/motion.h"
 
 namespace weft {
@@ -23,8 +24,13 @@ constexpr double kKeptInWind = 0.5;
 }  // namespace
 
 template <class Real>
-double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces<Real>& forces) {
-  return is_held(particles) ? forces.effects_energy(particles) : 0;
+double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces<Real>& forces,
+                                  double before) {
+  if (before == 0) return forces.effects_energy(particles);
+  Particles<Real> behind = particles;
+  kernels::add_scaled(kernels::components(behind.position), kernels::components(particles.velocity),
+                      static_cast<Real>(-before), particles.grid().size());
+  return forces.effects_energy(behind);
 }
 
 template <class Real>
@@ -36,31 +42,45 @@ double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double m
 }
 
 template <class Real>
-void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces) {
-  work_ = work_whole_ = taken_ = 0;
+void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces,
+                                    double lead) {
+  lead_ = lead;
+  work_ = work_whole_ = taken_ = led_out_ = 0;
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
-  const double now = motion_energy(particles).beside_centre + forces.sheet->energy(particles.position);
+  const double springs = forces.sheet->energy(particles.position);
+  const double now = motion_energy(particles).beside_centre + springs;
+  const double now_whole = motion_energy(particles, true).inner + springs;
+  // Beside the centre of mass gravity has none, and it is the only effect with any.
   account_ = {.drive = forces.drive,
-              .most = now + height(particles, forces),
-              .most_whole = forces.energy(particles),
+              .most = is_held(particles) ? now + height(particles, forces, 0) : now,
+              .most_whole = now_whole + height(particles, forces, lead_),
               .now = now,
-              .now_whole = motion_energy(particles, true).inner + forces.sheet->energy(particles.position)};
+              .now_whole = now_whole};
 }
 
 template <class Real>
 void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forces<Real>& forces,
-                                    const VectorField<Real>& start, const VectorField<Real>* dampers,
-                                    double h) {
+                                    const Ways& ways) {
   if (!account_) return;
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) force_ = way_ = VectorField<Real>(grid);
   forces.sum_effects(particles, force_);
-  if (dampers != nullptr) {
-    forces.sheet->add_damping_of_way(particles.position, kernels::components(*dampers), h, force_);
+  if (ways.dampers != nullptr) {
+    forces.sheet->add_damping_of_way(particles.position, kernels::components(*ways.dampers), ways.h, force_);
   }
-  kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(start),
-                                   Real(1), kernels::components(way_), grid.size());
+  const kernels::Components<Real> way = kernels::components(way_);
+  kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(ways.start),
+                                   Real(1), way, grid.size());
+  if (ways.lead != nullptr) {
+    const Real* lead = ways.lead->row(0);
+    const auto was = kernels::components(ways.start_velocity), is = kernels::components(particles.velocity);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      way.x[i] -= lead[i] * (is.x[i] - was.x[i]);
+      way.y[i] -= lead[i] * (is.y[i] - was.y[i]);
+      way.z[i] -= lead[i] * (is.z[i] - was.z[i]);
+    }
+  }
   work_whole_ += work_beside_centre(particles, force_, way_, true);
   if (!is_held(particles)) work_ += work_beside_centre(particles, force_, way_, false);
 }
@@ -78,7 +98,7 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const double work = firm ? work_whole_ : work_;
   double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;
   if (torn) lost = account.owed = 0;
-  account.owed += lost;
+  account.owed += lost - std::clamp(lost, -led_out_, led_out_);
   const bool wind = account.drive == Drive::wind;
   const double kept =
       account.owed > 0 ? kept_share(particles, account.motion, dt) * (wind ? kKeptInWind : 1) : 1;
@@ -86,8 +106,12 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const double most = kMostChange * motion.inner, most_owed = kMostOwed * account.motion;
   double change = std::clamp(account.owed, -most, most);
   if (!wind) {
-    const double room = leans ? account.most_whole - forces.energy(particles)
-                              : account.most - now - height(particles, forces);
+    const double whole = motion_energy(particles, true).inner + springs;
+    account.most += led_out_;
+    account.most_whole += led_out_;
+    const double room = leans    ? account.most_whole - whole - height(particles, forces, lead_)
+                        : pinned ? account.most - now - height(particles, forces, 0)
+                                 : account.most - now;
     change = std::min(change, room);
   }
   account.owed = std::clamp(account.owed - change, -most_owed, most_owed);

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/integrator.h"
 
 namespace weft {
@@ -19,6 +20,10 @@ namespace weft {
 /// more than it had when it was last driven. In wind half of what it loses is given back: folds lose most of
 /// it, and what they lose in earnest the drag takes, so that all of it would overdrive the flapping.
 ///
+/// Backward Euler's nodes run ahead of their speeds: under a steady force a node that began at rest is, after
+/// n substeps, where it should be half a substep later. That is no loss: of a cloth that nothing holds height
+/// and work are taken where the nodes of a smooth motion were half a substep ago (`lead`).
+///
 /// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
 /// own error, which is none of the inner motion's. While such a cloth leans on something, that makes inner
 /// motion of its fall and takes up momentum, as held nodes do: a strip that slides off a rail, the sides of a
@@ -30,16 +35,27 @@ class EnergyLedger {
   /// it only never has more than it had.
   explicit EnergyLedger(double liveliness) : liveliness_(liveliness) {}
 
-  /// As a step begins.
-  void begin_step(const Particles<Real>& particles, const Forces<Real>& forces);
-  /// After a substep: the nodes have come from `start`, their dampers by `dampers`, m (null where the springs
-  /// are undamped), in h seconds.
-  void count_work(const Particles<Real>& particles, const Forces<Real>& forces,
-                  const VectorField<Real>& start, const VectorField<Real>* dampers, double h);
+  /// As a step begins whose formula's places run ahead of its speeds by so many seconds.
+  void begin_step(const Particles<Real>& particles, const Forces<Real>& forces, double lead);
+  /// A substep of h seconds: where its nodes began, m, and how fast, m/s, the ways of their dampers, m (null
+  /// where the springs are undamped), and by how many seconds each node's place runs ahead (null if none
+  /// does; 0 where the motion was broken).
+  struct Ways {
+    const VectorField<Real>& start;
+    const VectorField<Real>& start_velocity;
+    const VectorField<Real>* dampers;
+    const Field<Real>* lead;
+    double h;
+  };
+  /// After a substep.
+  void count_work(const Particles<Real>& particles, const Forces<Real>& forces, const Ways& ways);
   /// Whether it keeps any books in this step.
   bool counts() const { return account_.has_value(); }
-  /// What contact took from the cloth in a substep, by impacts and friction, J.
-  void count_contact(double taken) { taken_ += taken; }
+  /// What contact did to the cloth in a substep.
+  void count_contact(const typename ContactConstraints<Real>::Work& work) {
+    taken_ += work.taken;
+    led_out_ += work.led_out;
+  }
   /// After a step of `dt` seconds, in which something may have touched the cloth. Returns by what each
   /// velocity was multiplied: what else the integrator remembers of the motion it has to scale likewise
   /// (scale_motion), as if the cloth were held where it was touched. Tells `report` what was lost and what
@@ -49,7 +65,7 @@ class EnergyLedger {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(account_, work_, work_whole_, taken_);
+    archive(account_, work_, work_whole_, taken_, led_out_);
   }
 
  private:
@@ -68,16 +84,18 @@ class EnergyLedger {
       archive(drive, most, most_whole, owed, now, now_whole, motion);
     }
   };
-  /// Of the effects, J; none beside the centre of mass, as gravity is the only one that has any.
-  static double height(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// Of the effects, J, where the nodes were so many seconds ago.
+  static double height(const Particles<Real>& particles, const Forces<Real>& forces, double before);
   /// Of what a motion of this energy loses in a step of `dt` seconds, what is given back.
   double kept_share(const Particles<Real>& particles, double motion, double dt) const;
 
   double liveliness_;
   std::optional<Account> account_;  ///< nothing while something else drives the cloth
+  double lead_ = 0;                 ///< s, in this step
   double work_ = 0;                 ///< of the effects in this step, J
   double work_whole_ = 0;           ///< the same with that on the centre of mass
   double taken_ = 0;                ///< by contact in this step, J
+  double led_out_ = 0;              ///< that it may have brought in by leading nodes out of solids, J
   VectorField<Real> force_, way_;   ///< work space
 };
 

@@ -1,6 +1,7 @@
 #include "cloth/integrators/implicit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cloth/core/clock.h"
 #include "cloth/kernels/node_vector.h"
@@ -45,7 +46,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double h = dt / parameters_.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
-  memory_->ledger.begin_step(particles, forces);
+  memory_->ledger.begin_step(particles, forces, state_->lead ? h / 2 : 0);
   ContactConstraints<Real>& contacts = memory_->contacts;
   bool touched = false;
   for (int substep = 0; substep < parameters_.substeps; ++substep) {
@@ -80,8 +81,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     forces.join(particles);
-    memory_->ledger.count_work(particles, forces, state_->start,
-                               forces.sheet->damped() ? &state_->way : nullptr, h);
+    memory_->ledger.count_work(
+        particles, forces,
+        {state_->start, state_->start_velocity, forces.sheet->damped() ? &state_->way : nullptr,
+         state_->lead ? &*state_->lead : nullptr, h});
     const double kept = memory_->momentum.end_substep(particles, forces, solids, state_->start, contact,
                                                       contacts.pushed_by_firm(),
                                                       second_order_ ? &memory_->second_order : nullptr, h);
@@ -105,6 +108,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     if (forces.sheet->damped()) state_->way = VectorField<Real>(grid);
   }
   if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid, parameters_);
+  state_->lead.reset();
+  if (!second_order_ && !is_held(particles)) state_->lead.emplace(grid);
   if (memory_->h != h) memory_->second_order.fill(Real(0));  // BDF2's formula is for equal steps
   memory_->h = h;
   const bool tore = state_->soft && state_->soft->torn() != forces.sheet->torn();
@@ -146,8 +151,9 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Force
   s.h = h;
   const std::size_t count = particles.grid().size();
   const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
-  const auto begin_anew = [&](std::size_t node) { memory_->begin_anew(node); };
-  memory_->contacts.for_each_node(begin_anew);
+  if (s.lead) s.lead->fill(static_cast<Real>(h / 2));
+  const auto begin_anew = [&](std::size_t node) { break_motion(node); };
+  memory_->contacts.for_each_broken(begin_anew);
   if (forces.layers != nullptr) forces.layers->for_each_node(begin_anew);
   copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
   copy<Real>(velocity, kernels::components(s.start_velocity), count);
@@ -254,11 +260,17 @@ void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& 
                                      std::vector<Solid>& solids, const Substep& part, AdvanceReport& report) {
   State& s = *state_;
   EnergyLedger<Real>& ledger = memory_->ledger;
-  const double before = ledger.counts() ? motion_energy(particles, true).inner : 0;
+  double before = 0;
+  if (ledger.counts()) {
+    before = motion_energy(particles, true).inner;
+    ledger.count_contact(memory_->contacts.work(
+        s.move,
+        {kernels::components(std::as_const(s.start_velocity)),
+         kernels::components(std::as_const(particles.velocity)), s.lead ? s.lead->row(0) : nullptr},
+        s.system.bodies()));
+  }
   report.nodes_in_contact = contact.resolve(particles, solids, part, &s.start);
-  if (!ledger.counts()) return;
-  ledger.count_contact(before - motion_energy(particles, true).inner +
-                       memory_->contacts.taken(s.move, s.system.bodies()));
+  if (ledger.counts()) ledger.count_contact({before - motion_energy(particles, true).inner, 0});
 }
 
 template <class Real>
@@ -276,6 +288,7 @@ void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>
   s.smooth = true;
   if (contact == nullptr) return;
   for (const Touch& touch : contact->touches()) {
+    if (memory_->contacts.goes_on(touch)) continue;
     ClothPoint<Real>(touch.point(), particles).for_each_node([&](std::size_t node, double) {
       memory_->begin_anew(node);
     });

@@ -36,8 +36,8 @@ namespace weft {
 /// what they give is taken (EnergyLedger).
 ///
 /// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
-/// backward Euler, as it does again after restart() and, node by node, in contact, which breaks the smooth
-/// motion that the formula extrapolates.
+/// backward Euler, as it does again after restart() and, node by node, where contact begins or ends, which
+/// breaks the smooth motion that the formula extrapolates. Where contact with firm solids lasts it goes on.
 template <class Real>
 class Implicit final : public Integrator<Real> {
  public:
@@ -101,6 +101,9 @@ class Implicit final : public Integrator<Real> {
     ConjugateGradients<Real> solver;
     NodeArrays<Real> numbers, vectors;
     VectorField<Real> start, start_velocity, force;
+    /// By how many seconds places run ahead of speeds (EnergyLedger): of backward Euler, unless a node is
+    /// held.
+    std::optional<Field<Real>> lead;
     VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where the sheet is undamped
     kernels::BackwardStep<Real> step;
     kernels::Components<Real> position;  ///< of the iterate, with margins
@@ -151,6 +154,11 @@ class Implicit final : public Integrator<Real> {
   void begin_formula(double h);
   void guess_move(double h);
   NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
+  /// Contact broke the node's motion in this substep: it goes by backward Euler, without a past.
+  void break_motion(std::size_t node) {
+    memory_->begin_anew(node);
+    if (state_->lead) state_->lead->row(0)[node] = Real(0);
+  }
   /// Lets go of nodes that the iteration has drawn off the side of a solid; true if there are any.
   bool let_go(const Particles<Real>& particles);
   /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.

@@ -5,6 +5,7 @@
 #include "cloth/core/interrupt.h"
 #include "cloth/integrators/implicit.h"
 #include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft {
 namespace {
@@ -15,6 +16,10 @@ constexpr int kSpareIterations = 8, kMoreIterations = 3;
 /// A linearisation whose error exceeds this share of the kinetic energy is repeated. Near rest the error may
 /// not exceed that of a solve.
 constexpr double kRough = 0.2;
+/// The same for friction where contact begins, of the kinetic energy found: there nothing tells beforehand
+/// how hard the nodes are pressed. That is repeated so many times at most.
+constexpr double kRoughFriction = 0.05;
+constexpr int kFrictionIterations = 5;
 /// The same for a sheet in contact with itself that lies on a solid.
 constexpr double kRoughHeap = 0.02;
 /// Further rounds that hold nodes of such a sheet which the last iteration has moved into a solid: projection
@@ -85,9 +90,11 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
     const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
     report.found = report.found || (solved.finite && found);
-    double error = changed.error, pulling = 0;
+    double error = changed.error, pulling = 0, begun = 0;
     if (!memory_->contacts.empty()) {
-      error += memory_->contacts.error(s.move, s.system.bodies());
+      const auto misjudged = memory_->contacts.error(s.move, s.system.bodies());
+      error += misjudged.all;
+      begun = misjudged.begun;
       pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
     }
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
@@ -97,7 +104,9 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool fine = left > 1 || rough || s.motion.fine();
     const double allowed =
         fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
-    const bool done = report.brought_in <= 0 && error <= allowed && changed.struck <= kStruck;
+    const bool known =
+        begun == 0 || left <= 1 - kFrictionIterations || begun <= kRoughFriction * kinetic_energy(particles);
+    const bool done = report.brought_in <= 0 && error <= allowed && known && changed.struck <= kStruck;
     const bool last = left <= 1 - (stray && rough ? kSpareSearches : kSpareIterations);
     if (!last && (!done || let_go(particles) || hold_inside(particles, forces.sheet->springs(), allowed)))
       continue;
@@ -131,7 +140,7 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
   if (!memory_->contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
                                      springs.node_stiffness(), missed))
     return false;
-  memory_->contacts.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
+  memory_->contacts.for_each_broken([&](std::size_t node) { break_motion(node); });
   begin_formula(s.h);
   return true;
 }
@@ -140,7 +149,7 @@ template <class Real>
 bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
   State& s = *state_;
   if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
-  layers.for_each_node([&](std::size_t node) { memory_->begin_anew(node); });
+  layers.for_each_node([&](std::size_t node) { break_motion(node); });
   begin_formula(s.h);
   return true;
 }

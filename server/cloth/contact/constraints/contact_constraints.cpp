@@ -107,8 +107,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
                   normal.dot(way) - surface.distance + bears_from,
                   0,
                   move,
-                  inner_radius(solid.shape),
-                  -normal.dot(slip) / substep_.seconds};
+                  inner_radius(solid.shape)};
   // What meets it anew is led out to where the spring begins to bear, at no speed.
   made.led_out = std::max(0.0, (held ? 0 : bears_from) - solid.gap(place, substep_.from));
   made.coefficient = solid.friction;

@@ -71,11 +71,27 @@ class ContactConstraints {
   /// After finish: what was held on its side of a body, or of what stands firm if it went less than half
   /// through it, or came off on that side; ordered.
   const std::vector<Touch>& kept_aside() const { return kept_aside_; }
-  /// The energy by which the last system misjudges contact at `move`, J: friction, and springs that were too
-  /// weak to keep their node out of the solid.
-  double error(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
-  /// After finish: what impacts and friction took from the cloth in the substep, J.
-  double taken(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
+  /// Energies by which the last system misjudges contact, J.
+  struct Misjudged {
+    double all = 0;    ///< friction, and springs that were too weak to keep their node out of the solid
+    double begun = 0;  ///< of that what begins with this substep or began with the last, on what stands firm
+  };
+  Misjudged error(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies) const;
+  /// Nodes' velocities as a substep begins and ends, m/s, and by how many seconds their places run ahead of
+  /// them (EnergyLedger; null if none does).
+  struct Velocities {
+    kernels::Components<const Real> start, end;
+    const Real* lead;
+  };
+  /// J, in a substep.
+  struct Work {
+    double taken = 0;    ///< by friction, as Coulomb's law has it at the end, by the normal forces of what
+                         ///< lasts, and by impacts
+    double led_out = 0;  ///< what leading nodes out may have brought in besides
+  };
+  /// After finish and keep_velocities: what contact did to the cloth.
+  Work work(kernels::Components<const Real> move, const Velocities& velocities,
+            const AttachedBodies<Real>& bodies) const;
   /// After finish: something that stands firm pushed the cloth in the substep.
   bool pushed_by_firm() const {
     return std::any_of(constraints_.begin(), constraints_.end(),
@@ -110,12 +126,18 @@ class ContactConstraints {
   /// Takes from the velocities what leading nodes out of solids gave them: that is no motion.
   void keep_velocities(kernels::Components<Real> velocity) const;
 
-  /// Calls visit(node index) for every constrained node, and those of every constrained point.
+  /// Calls visit(node index) for every constrained node, and those of every constrained point, whose motion
+  /// contact breaks in this substep: all but what firm solids have pressed upon in the last two.
   template <class Visit>
-  void for_each_node(Visit visit) const {
-    for (const Constraint& constraint : constraints_) {
-      constraint.point.for_each_node([&](std::size_t node, double) { visit(node); });
+  void for_each_broken(Visit visit) const {
+    for (const Constraint& c : constraints_) {
+      if (!c.lasts()) c.point.for_each_node([&](std::size_t node, double) { visit(node); });
     }
+  }
+  /// After finish: what touches so moves smoothly in the next substep, too, if contact goes on.
+  bool goes_on(const Touch& touch) const {
+    const auto c = std::lower_bound(constraints_.begin(), constraints_.end(), touch, is_before);
+    return c != constraints_.end() && c->touch == touch && c->goes_on();
   }
 
   /// What lasts from step to step (world/state.h).
@@ -135,7 +157,6 @@ class ContactConstraints {
     double led_out;                  ///< of which it is led out of the solid, where it began, m
     Vec3 solid_move;                 ///< in the substep if nothing bends its way, m
     double width;                    ///< of the solid, its inner radius, m
-    double approach;                 ///< to the solid, along the normal, as the substep begins, m/s
     double stiffness = 0, most = 0;  ///< as it is, and as it may become, N/m
     double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
@@ -148,11 +169,14 @@ class ContactConstraints {
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(touch, point, body, arm, normal, distance, led_out, solid_move, width, approach, stiffness,
-              most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
+      archive(touch, point, body, arm, normal, distance, led_out, solid_move, width, stiffness, most, force,
+              last_force, force_before, released, pinched, solved, coefficient, friction);
     }
     /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
     double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }
+    /// A firm solid pressed upon it in the last two steps: since the first of them its motion is smooth.
+    bool lasts() const { return !body && usual_force() > 0; }
+    bool goes_on() const { return !body && force > 0 && last_force > 0; }
     /// Along the surface, as it has moved, m.
     Vec3 slip(const Vec3& moved) const { return across(moved - solid_move, normal); }
     /// Along the normal as it has moved, N.

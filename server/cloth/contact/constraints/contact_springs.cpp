@@ -96,7 +96,7 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     const Vec3 moved = move_of(c, move, bodies), slip = c.slip(moved);
     const double holds = c.holds(moved);
     const double bears = std::max(c.usual_force(), c.solved ? c.force_at(moved) : 0);
-    const double least = inertia / kDepth;
+    const double least = c.point.mass() / (kDepth * substep_.seconds * substep_.seconds);
     c.most = kLinkMultiple * links + (c.body ? kBodyMultiple * inertia : least);
     c.stiffness = c.body || c.pinched ? c.most : std::clamp(bears / depth(), least, c.most);
     if (!c.body || !c.solved) c.friction.linearise(slip, holds, c.stiffness, inertia);
@@ -129,17 +129,19 @@ void ContactConstraints<Real>::append_springs(kernels::Components<const Real> mo
 }
 
 template <class Real>
-double ContactConstraints<Real>::error(kernels::Components<const Real> move,
-                                       const AttachedBodies<Real>& bodies) const {
-  double energy = 0;
+auto ContactConstraints<Real>::error(kernels::Components<const Real> move,
+                                     const AttachedBodies<Real>& bodies) const -> Misjudged {
+  Misjudged sum;
   for (const Constraint& c : constraints_) {
     if (c.released || !c.solved) continue;
     const Vec3 moved = move_of(c, move, bodies);
-    if (!c.body) energy += c.friction.error(c.slip(moved), c.holds(moved));
+    double energy = c.body ? 0 : c.friction.error(c.slip(moved), c.holds(moved));
     const double inside = c.distance - c.normal.dot(moved) - margin();
     if (inside > 0 && c.stiffness < c.most && !c.pinched) energy += c.most * inside * inside / 2;
+    sum.all += energy;
+    if (!c.body && c.force_before < 0) sum.begun += energy;
   }
-  return energy;
+  return sum;
 }
 
 template <class Real>
@@ -177,15 +179,25 @@ const std::vector<Touch>& ContactConstraints<Real>::finish(kernels::Components<c
 }
 
 template <class Real>
-double ContactConstraints<Real>::taken(kernels::Components<const Real> move,
-                                       const AttachedBodies<Real>& bodies) const {
-  double energy = 0;
+auto ContactConstraints<Real>::work(kernels::Components<const Real> move, const Velocities& velocities,
+                                    const AttachedBodies<Real>& bodies) const -> Work {
+  Work work;
   for (const Constraint& c : constraints_) {
-    const Vec3 slip = c.slip(move_of(c, move, bodies));
-    energy -= c.friction.grip().dot(slip);
-    if (c.force > 0 && c.approach > 0) energy += c.point.mass() * c.approach * c.approach / 2;
+    Vec3 way = move_of(c, move, bodies) - c.solid_move;
+    const Vec3 was = c.point.moved_by(velocities.start);
+    if (c.lasts()) {
+      if (velocities.lead != nullptr)
+        way -= double(velocities.lead[c.touch.node]) * (c.point.moved_by(velocities.end) - was);
+      work.taken -= c.force * c.normal.dot(way);
+    } else if (c.force > 0) {
+      const double approach =
+          std::max(0.0, c.normal.dot(c.solid_move) / substep_.seconds - c.normal.dot(was));
+      work.taken += c.point.mass() * approach * approach / 2;
+    }
+    work.taken -= c.friction.grip().dot(across(way, c.normal));
+    work.led_out += c.force * c.led_out;
   }
-  return energy;
+  return work;
 }
 
 template <class Real>
@@ -221,15 +233,15 @@ template void ContactConstraints<float>::append_springs(kernels::Components<cons
                                                         kernels::Components<const float>,
                                                         const AttachedBodies<float>&,
                                                         std::vector<OneSidedSpring>&) const;
-template double ContactConstraints<float>::error(kernels::Components<const float>,
-                                                 const AttachedBodies<float>&) const;
+template auto ContactConstraints<float>::error(kernels::Components<const float>,
+                                               const AttachedBodies<float>&) const -> Misjudged;
 template double ContactConstraints<float>::release_pulling(kernels::Components<const float>,
                                                            const AttachedBodies<float>&);
 template const std::vector<Touch>& ContactConstraints<float>::finish(kernels::Components<const float>,
                                                                      const AttachedBodies<float>&,
                                                                      std::vector<Solid>&);
-template double ContactConstraints<float>::taken(kernels::Components<const float>,
-                                                 const AttachedBodies<float>&) const;
+template auto ContactConstraints<float>::work(kernels::Components<const float>, const Velocities&,
+                                              const AttachedBodies<float>&) const -> Work;
 template std::vector<Solid> ContactConstraints<float>::bent(std::vector<Solid>,
                                                             const AttachedBodies<float>&) const;
 template void ContactConstraints<float>::keep_velocities(kernels::Components<float>) const;
@@ -247,15 +259,15 @@ template void ContactConstraints<double>::append_springs(kernels::Components<con
                                                          kernels::Components<const double>,
                                                          const AttachedBodies<double>&,
                                                          std::vector<OneSidedSpring>&) const;
-template double ContactConstraints<double>::error(kernels::Components<const double>,
-                                                  const AttachedBodies<double>&) const;
+template auto ContactConstraints<double>::error(kernels::Components<const double>,
+                                                const AttachedBodies<double>&) const -> Misjudged;
 template double ContactConstraints<double>::release_pulling(kernels::Components<const double>,
                                                             const AttachedBodies<double>&);
 template const std::vector<Touch>& ContactConstraints<double>::finish(kernels::Components<const double>,
                                                                       const AttachedBodies<double>&,
                                                                       std::vector<Solid>&);
-template double ContactConstraints<double>::taken(kernels::Components<const double>,
-                                                  const AttachedBodies<double>&) const;
+template auto ContactConstraints<double>::work(kernels::Components<const double>, const Velocities&,
+                                               const AttachedBodies<double>&) const -> Work;
 template std::vector<Solid> ContactConstraints<double>::bent(std::vector<Solid>,
                                                              const AttachedBodies<double>&) const;
 template void ContactConstraints<double>::keep_velocities(kernels::Components<double>) const;

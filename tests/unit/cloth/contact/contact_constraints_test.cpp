@@ -51,7 +51,7 @@ class OnGround {
   }
   double error(const Vec3& move) {
     NodeArrays<double> vectors(sheet_.grid(), 3);
-    return contacts.error(moved(vectors.vector(0), move), bodies);
+    return contacts.error(moved(vectors.vector(0), move), bodies).all;
   }
   std::vector<Touch> finish(const Vec3& move) {
     NodeArrays<double> vectors(sheet_.grid(), 3);
@@ -83,6 +83,21 @@ TEST(ContactConstraints, HoldANodeAlongTheNormalAlone) {
   EXPECT_NEAR(block(2, 2), kWeak, 1e-9 * kWeak);
   EXPECT_LT((block - kWeak * Vec3(0, 0, 1) * Vec3(0, 0, 1).transpose()).norm(), 1e-9 * kWeak);
   EXPECT_LT(b.norm(), 1e-9 * kWeak) << "there it begins to bear";
+}
+
+// Of a motion that contact has broken BDF2 knows no past; two steps later it has one.
+TEST(ContactConstraints, BreakAMotionUntilTheyHaveLastedForTwoSteps) {
+  OnGround sheet;
+  for (int step = 1; step <= 4; ++step) {
+    sheet.begin();
+    int broken = 0;
+    sheet.contacts.for_each_broken([&](std::size_t) { ++broken; });
+    EXPECT_EQ(broken, step <= 2 ? 1 : 0) << "step " << step;
+    sheet.system_at({0, 0, 0});
+    const std::vector<Touch> pressed = sheet.finish({0, 0, kBears / 2});
+    ASSERT_EQ(pressed.size(), 1U);
+    EXPECT_EQ(sheet.contacts.goes_on(pressed[0]), step >= 2) << "after step " << step;
+  }
 }
 
 TEST(ContactConstraints, PushOutWhatGoesIn) {
