@@ -47,14 +47,14 @@ template <class Real, bool kBending, bool kBlocks>
     for (int c = columns.begin; c < end; ++c) {
       const std::ptrdiff_t i = first + c;
       Block<Real> pivot = node_block<Real, kBending, kBlocks>(matrix, i);
-      const Real rounding =
-          kRounding * std::numeric_limits<Real>::epsilon() * (pivot.xx + pivot.yy + pivot.zz);
+      const Real trace = pivot.xx + pivot.yy + pivot.zz;
+      const Real rounding = kRounding * std::numeric_limits<Real>::epsilon() * trace;
       pivot.xx += rounding;
       pivot.yy += rounding;
       pivot.zz += rounding;
       store(nodes, i, pivot);
       pivot.add(block_at(less, c), Real(-1));
-      const Block<Real> e = inverted(pivot, matrix.diagonal[i], matrix.free[i]);
+      const Block<Real> e = inverted(pivot, matrix.diagonal[i], matrix.free[i], 1 / trace);
       store(factors.inverse, i, e);
       const Real x = link.x[i], y = link.y[i], z = link.z[i];
       const Triple<Real> w = times(e, x, y, z);
@@ -237,13 +237,14 @@ template <class Real>
     const Real* __restrict m = free + c * kLines;
     WEFT_INDEPENDENT_ITERATIONS
     for (int i = 0; i < kLines; ++i) {
+      const Real trace = f[i] + f[3 * kLines + i] + f[5 * kLines + i];
       const Block<Real> pivot{f[i] - less[0][i],
                               f[kLines + i] - less[1][i],
                               f[2 * kLines + i] - less[2][i],
                               f[3 * kLines + i] - less[3][i],
                               f[4 * kLines + i] - less[4][i],
                               f[5 * kLines + i] - less[5][i]};
-      const Block<Real> e = inverted(pivot, l[i], m[i]);
+      const Block<Real> e = inverted(pivot, l[i], m[i], 1 / trace);
       f[i] = e.xx;
       f[kLines + i] = e.xy;
       f[2 * kLines + i] = e.xz;

@@ -102,7 +102,8 @@ template <class Real, bool kBending, bool kBlocks, class Links>
     for (int c = 0; c < grid.cols; ++c) {
       const std::ptrdiff_t i = r * stride + c;
       const Block<Real> sum = node_block<Real, kBending, kBlocks>(matrix, i);
-      store(inverse, i, inverted(sum, matrix.diagonal[i], damping * matrix.free[i]));
+      store(inverse, i,
+            inverted(sum, matrix.diagonal[i], damping * matrix.free[i], 1 / (sum.xx + sum.yy + sum.zz)));
     }
   }
 }

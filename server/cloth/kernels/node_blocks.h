@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 
+#include "cloth/core/multiversion.h"
 #include "cloth/kernels/link_kernels.h"
 
 /// 3 x 3 blocks of the linearised sheet, one node at a time; for kernels' .cpp files only.
@@ -42,10 +43,15 @@ template <class Real>
   blocks.zz[i] = block.zz;
 }
 
+/// A block's inverse is known to be at most 1 / `least` in each of its three directions. One whose trace is
+/// more than this many times that is rounding's.
+constexpr int kMostInverse = 12;
+
 /// factor times the inverse of m, which is at least `least` times the identity, through L D L^T. Pivots
-/// cannot be less than `least` but for rounding: held to it, the inverse stays positive definite.
+/// cannot be less than `least` but for rounding: held to it, the inverse stays positive definite. Where
+/// rounding has left nothing of m, the inverse is `safe` times the identity, which no inverse is below.
 template <class Real>
-[[gnu::always_inline]] inline Block<Real> inverted(const Block<Real>& m, Real least, Real factor) {
+[[gnu::always_inline]] inline Block<Real> inverted(const Block<Real>& m, Real least, Real factor, Real safe) {
   const auto pivot = [least](Real d) WEFT_INLINE_LAMBDA { return 1 / (d > least ? d : least); };
   const Real d1 = pivot(m.xx);
   const Real l2 = m.xy * d1, l3 = m.xz * d1;
@@ -55,12 +61,13 @@ template <class Real>
   // The rows of L^-1, scaled: inverse = sum of d r r^T.
   const Real r31 = l32 * l2 - l3;
   const Real f1 = factor * d1, f2 = factor * d2, f3 = factor * d3;
-  return {f1 + f2 * l2 * l2 + f3 * r31 * r31,
-          -f2 * l2 - f3 * r31 * l32,
-          f3 * r31,
-          f2 + f3 * l32 * l32,
-          -f3 * l32,
-          f3};
+  const Real xx = f1 + f2 * l2 * l2 + f3 * r31 * r31, yy = f2 + f3 * l32 * l32;
+  const bool sound = least * (xx + yy + f3) <= Real(kMostInverse) * factor;
+  const auto kept = [=](Real number, Real other) WEFT_INLINE_LAMBDA { return sound ? number : other; };
+  const Real instead = factor * safe;
+  return {kept(xx, instead),        kept(-f2 * l2 - f3 * r31 * l32, Real(0)),
+          kept(f3 * r31, Real(0)),  kept(yy, instead),
+          kept(-f3 * l32, Real(0)), kept(f3, instead)};
 }
 
 /// The diagonal block of node i: D and all links at it.
