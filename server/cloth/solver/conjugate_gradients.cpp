@@ -62,7 +62,18 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
       report.decrease += found * found / curvature / 2;
     }
   }
-  double rz = system.precondition(r, p);
+  // Rounding may make of the cycle what is not positive definite: then, for the rest of the solve, without it.
+  bool cycles = true;
+  const auto precondition = [&](kernels::Components<Real> z) {
+    if (cycles) {
+      const double found = system.precondition(r, z);
+      if (found > 0) return found;
+      cycles = false;
+    }
+    copy<Real>(r, z, grid.size());
+    return kernels::dot<Real>(r, r, grid);
+  };
+  double rz = precondition(p);
   report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
   ErrorEstimate error;
   while (rz > 0 && report.iterations < max_iterations) {
@@ -81,9 +92,11 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
       report.converged = true;
       break;
     }
-    const double next = system.precondition(r, q);
+    const bool cycled = cycles;
+    const double next = precondition(q);
+    const double turned = cycled == cycles ? next / rz : 0;
     bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
-      kernels::turn_towards<Real>(p + first, q + first, static_cast<Real>(next / rz), count);
+      kernels::turn_towards<Real>(p + first, q + first, static_cast<Real>(turned), count);
     });
     rz = next;
   }
