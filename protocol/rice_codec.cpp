@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "protocol/quantised_rows.h"
@@ -24,23 +25,20 @@ std::size_t place(int i) { return static_cast<std::size_t>(i); }
 /// Bits one after the other, the lowest of each byte first.
 class BitWriter {
  public:
+  explicit BitWriter(std::size_t most_bits) : bytes_(most_bits / 8 + 1 + sizeof(std::uint64_t)) {}
+
   void zeros(std::uint32_t count) { fill_ += count; }
-  void one() {
-    grow(fill_ + 1);
-    bytes_[fill_ / 8] |= static_cast<std::uint8_t>(1U << (fill_ % 8));
-    ++fill_;
-  }
+  /// At most 32 bits.
   void value(std::uint32_t bits, int width) {
-    grow(fill_ + place(width));
-    std::uint32_t rest = bits << (fill_ % 8);  // at most 19 + 7 bits
-    for (std::size_t at = fill_ / 8; rest != 0; rest >>= 8U) bytes_[at++] |= static_cast<std::uint8_t>(rest);
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes_.data() + fill_ / 8, sizeof word);
+    word |= static_cast<std::uint64_t>(bits) << (fill_ % 8);
+    std::memcpy(bytes_.data() + fill_ / 8, &word, sizeof word);
     fill_ += place(width);
   }
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  std::span<const std::uint8_t> bytes() const { return std::span(bytes_).first((fill_ + 7) / 8); }
 
  private:
-  void grow(std::size_t bits) { bytes_.resize((bits + 7) / 8); }
-
   std::vector<std::uint8_t> bytes_;
   std::size_t fill_ = 0;
 };
@@ -91,13 +89,18 @@ class ResidualPlane {
   /// parameter is the exponent of the power of two at or below it.
   void parameters(int r, std::vector<int>& k) {
     const std::uint32_t *one = row(r - 1), *two = row(std::max(r - 2, 0)), *three = row(std::max(r - 3, 0));
-    for (int c = 0; c < cols_; ++c) {
-      const int left = std::max(c - 1, 0), right = std::min(c + 1, cols_ - 1);
-      const std::uint32_t sum = one[std::max(c - 2, 0)] + 2 * one[left] + 3 * one[c] + 2 * one[right] +
-                                one[std::min(c + 2, cols_ - 1)] + two[left] + 2 * two[c] + two[right] +
-                                3 * three[c];
-      k[place(c)] = std::max(static_cast<int>(std::bit_width(sum / 16)) - 1, 0);
-    }
+    const auto parameter = [&](int c, int far_left, int left, int right, int far_right) {
+      const std::uint32_t sum = one[far_left] + 2 * one[left] + 3 * one[c] + 2 * one[right] + one[far_right] +
+                                two[left] + 2 * two[c] + two[right] + 3 * three[c];
+      k[place(c)] = static_cast<int>(std::bit_width(sum / 16 | 1U)) - 1;
+    };
+    const int last = cols_ - 1;
+    const auto at_border = [&](int c) {
+      parameter(c, std::max(c - 2, 0), std::max(c - 1, 0), std::min(c + 1, last), std::min(c + 2, last));
+    };
+    for (int c = 0; c < std::min(2, cols_); ++c) at_border(c);
+    for (int c = 2; c < last - 1; ++c) parameter(c, c - 2, c - 1, c + 1, c + 2);
+    for (int c = std::max(last - 1, 2); c < cols_; ++c) at_border(c);
   }
 
  private:
@@ -207,7 +210,8 @@ void encode_rice_grid(const GridView& grid, const Quantisation& quantisation,
   std::vector<ResidualPlane> planes(kRiceAxes, ResidualPlane(grid.rows, grid.cols));
   for (std::size_t axis = 0; axis < kRiceAxes; ++axis) differences.emplace_back(grid, axis, quantisation);
   std::vector<int> k(place(grid.cols));
-  BitWriter quotients, remainders;
+  const std::size_t values = kRiceAxes * place(grid.rows) * place(grid.cols);
+  BitWriter quotients(values * (kEscape + 1)), remainders(values * kEscapedWidth);
   for (int r = 0; r < grid.rows; ++r) {
     for (std::size_t axis = 0; axis < kRiceAxes; ++axis) {
       const std::uint32_t* z = planes[axis].row(r);
@@ -221,7 +225,7 @@ void encode_rice_grid(const GridView& grid, const Quantisation& quantisation,
       for (int c = 0; c < grid.cols; ++c) {
         const std::uint32_t quotient = std::min<std::uint32_t>(z[c] >> k[place(c)], kEscape);
         quotients.zeros(quotient);
-        quotients.one();
+        quotients.value(1, 1);
         const int width = quotient == kEscape ? kEscapedWidth : k[place(c)];
         remainders.value(z[c] & ((1U << width) - 1), width);
       }
