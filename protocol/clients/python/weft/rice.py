@@ -77,7 +77,8 @@ def _parameters(one: Integers, two: Integers, three: Integers) -> Integers:
     """Of a row, from the residuals of those above it, the nearest first: the exponent of the power of two at or below the mean."""
     near, far = np.pad(one, ((0, 0), (2, 2)), "edge"), np.pad(two, ((0, 0), (1, 1)), "edge")
     sums = (near[:, :-4] + 2 * near[:, 1:-3] + 3 * one + 2 * near[:, 3:-1] + near[:, 4:] + far[:, :-2] + 2 * two + far[:, 2:] + 3 * three)
-    return np.frexp(np.maximum(sums >> 4, 1).astype(float))[1].astype(np.int64) - 1
+    exponents: Integers = np.frexp(np.maximum(sums >> 4, 1).astype(float))[1].astype(np.int64)
+    return exponents - 1
 
 
 def _differences(z: Integers) -> Integers:
