@@ -6,13 +6,15 @@
 #include <cstring>
 #include <limits>
 
+#include "protocol/rice_codec.h"
+
 namespace weft::protocol {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "fields are stored as they lie in memory");
 
 constexpr std::array<std::uint8_t, 4> kMagic{'W', 'E', 'F', 'T'};
-constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2, kGapsCodec = 3;
+constexpr std::uint8_t kVersion = 1, kGridCodec = 1, kListCodec = 2, kGapsCodec = 3, kRiceCodec = 4;
 constexpr std::size_t kBallBytes = 24, kObstacleBytes = 32, kMaxHeaderBytes = 256;
 
 /// Offsets of the header's fields.
@@ -158,7 +160,8 @@ class Reader {
   }
 
   bool cloth(std::span<const std::uint8_t> header, std::span<const std::uint8_t> payload) {
-    if (header[kCodecAt] != kGridCodec) return fail("codec " + std::to_string(header[kCodecAt]));
+    const auto codec = header[kCodecAt];
+    if (codec != kGridCodec && codec != kRiceCodec) return fail("codec " + std::to_string(codec));
     ClothRecord cloth;
     cloth.cloth = get<std::uint32_t>(header, kClothAt);
     cloth.level = header[kLevelAt];
@@ -171,8 +174,8 @@ class Reader {
     if (cloth.quantisation.bits < 8 || cloth.quantisation.bits > 16)
       return fail(std::to_string(cloth.quantisation.bits) + " bits");
     if (!usable(cloth.quantisation)) return fail("unusable origin or quantum");
-    if (!decode_grid(payload, cloth.rows, cloth.cols, cloth.quantisation, cloth.positions, error_))
-      return false;
+    const auto decode = codec == kRiceCodec ? decode_rice_grid : decode_grid;
+    if (!decode(payload, cloth.rows, cloth.cols, cloth.quantisation, cloth.positions, error_)) return false;
     frame_.cloths.push_back(std::move(cloth));
     return true;
   }
@@ -246,11 +249,26 @@ class Reader {
   bool stamped_ = false;
 };
 
+/// By codec 4; by codec 1 where nothing can be foreseen of the grid, so that no record is larger than codec 1
+/// can make it.
+void encode_smaller(const GridView& grid, const Quantisation& quantisation,
+                    std::vector<std::uint8_t>& record) {
+  encode_rice_grid(grid, quantisation, record);
+  put(record.data(), kCodecAt, kRiceCodec);
+  const std::size_t values = 3 * static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols);
+  if (record.size() - kHeaderBytes <= 2 * values) return;  // codec 1 may take 19 bits a value
+  std::vector<std::uint8_t> plain(record.begin(), record.begin() + kHeaderBytes);
+  encode_grid(grid, quantisation, plain);
+  if (plain.size() > record.size()) return;
+  put(plain.data(), kCodecAt, kGridCodec);
+  record = std::move(plain);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
                                               int simulated_level, int bits, const GridView& grid,
-                                              int min_exponent) {
+                                              int min_exponent, GridCoding coding) {
   auto record = header(stamp, kClothRecord, kGridCodec, static_cast<std::size_t>(grid.cols),
                        static_cast<std::size_t>(grid.rows));
   const Quantisation quantisation = choose_quantisation(grid, bits, min_exponent);
@@ -260,7 +278,11 @@ std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint
   put(record.data(), kSimulatedLevelAt, static_cast<std::uint8_t>(simulated_level));
   put(record.data(), kOriginAt, quantisation.origin);
   put(record.data(), kQuantumAt, quantisation.quantum);
-  encode_grid(grid, quantisation, record);
+  if (coding == GridCoding::plain) {
+    encode_grid(grid, quantisation, record);
+  } else {
+    encode_smaller(grid, quantisation, record);
+  }
   put_payload_length(record);
   return record;
 }

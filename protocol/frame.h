@@ -39,11 +39,16 @@ struct FrameObstacle {
   bool operator==(const FrameObstacle&) const = default;
 };
 
-/// One cloth's record, last or not: encoded once a level and lattice, and shared by all viewers of these.
-/// `min_exponent`: as in choose_quantisation.
+/// How a cloth's positions are written: as every client reads them (codec 1), or smaller for those that have
+/// the capability grid.rice (codec 4, or 1 where that is smaller).
+enum class GridCoding { plain, rice };
+
+/// One cloth's record, last or not: encoded once a level, lattice and coding, and shared by all viewers of
+/// these. `min_exponent`: as in choose_quantisation.
 std::vector<std::uint8_t> encode_cloth_record(const FrameStamp& stamp, std::uint32_t cloth, int level,
                                               int simulated_level, int bits, const GridView& grid,
-                                              int min_exponent = kMinQuantumExponent);
+                                              int min_exponent = kMinQuantumExponent,
+                                              GridCoding coding = GridCoding::plain);
 /// What is torn of a cloth whose mesh has rows x cols nodes: face r * (cols - 1) + c is that right of and
 /// below node (r, c); ascending, at least one. To follow the cloth's own record.
 std::vector<std::uint8_t> encode_tears_record(const FrameStamp& stamp, std::uint32_t cloth, int level,

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "protocol/quantised_rows.h"
+
 namespace weft::protocol {
 namespace {
 
@@ -19,14 +21,6 @@ constexpr std::size_t kSlack = 8;  ///< whole words are loaded and stored, up to
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 std::size_t group_bytes(int values, int width) { return static_cast<std::size_t>((values * width + 7) / 8); }
-
-/// The row's values side by side: the storage itself where it is so already, else copied into `copy`.
-const float* row_of(const GridView& grid, std::size_t axis, int row, std::vector<float>& copy) {
-  const float* first = grid.data[axis] + row * grid.row_step;
-  if (grid.col_step == 1) return first;
-  for (int c = 0; c < grid.cols; ++c) copy[index(c)] = first[c * grid.col_step];
-  return copy.data();
-}
 
 struct Interval {
   float low = std::numeric_limits<float>::infinity(), high = -std::numeric_limits<float>::infinity();
@@ -81,13 +75,6 @@ void unpack(const std::uint8_t* in, int count, int width, std::uint32_t* values)
   }
 }
 
-std::uint32_t zigzag(std::int32_t e) {
-  return static_cast<std::uint32_t>(e) << 1 ^ static_cast<std::uint32_t>(e >> 31);
-}
-std::int32_t unzigzag(std::uint32_t z) {
-  return static_cast<std::int32_t>(z >> 1) ^ -static_cast<std::int32_t>(z & 1);
-}
-
 /// The largest float that is at most `value`. Of a multiple of a power of two it is a multiple, too: its own
 /// last digit is worth more, or it is the value itself.
 float float_below(double value) {
@@ -98,19 +85,11 @@ float float_below(double value) {
 /// Zig-zagged residuals of one axis. With d = q - (q above), q - P is d - (d to the left).
 void residuals(const GridView& grid, std::size_t axis, const Quantisation& quantisation,
                std::vector<std::uint32_t>& out) {
-  const double origin = double(quantisation.origin[axis]) - grid.place[axis];
-  const double per_quantum = 1.0 / double(quantisation.quantum);  // exact: a power of two
-  const double top = double((1 << quantisation.bits) - 1);
+  QuantisedRows rows(grid, axis, quantisation);
   const int cols = grid.cols;
   std::vector<std::int32_t> above(index(cols), 0), here(index(cols)), difference(index(cols) + 1, 0);
-  std::vector<float> copy(grid.col_step == 1 ? 0 : index(cols));
   for (int r = 0; r < grid.rows; ++r) {
-    const float* row = row_of(grid, axis, r, copy);
-    for (int c = 0; c < cols; ++c) {
-      const double q = (double(row[c]) - origin) * per_quantum + 0.5;
-      // Clamped in this order, a NaN becomes 0 instead of undefined behaviour.
-      here[index(c)] = static_cast<std::int32_t>(std::min(std::max(0.0, q), top));
-    }
+    rows.read(r, here.data());
     for (int c = 0; c < cols; ++c) difference[index(c) + 1] = here[index(c)] - above[index(c)];
     std::uint32_t* z = out.data() + index(r) * index(cols);
     for (int c = 0; c < cols; ++c) z[c] = zigzag(difference[index(c) + 1] - difference[index(c)]);

@@ -76,7 +76,7 @@ std::string welcome_text(std::string_view server_version, std::string_view insta
                          const Limits& limits) {
   return dump({{"op", "welcome"},
                {"protocol", kSubprotocol},
-               {"minor", 17},
+               {"minor", 18},
                {"server", "weft " + std::string(server_version)},
                {"instance", instance},
                {"role", name_of(role)},

@@ -14,7 +14,7 @@
 namespace weft::protocol {
 
 inline constexpr const char* kSubprotocol = "weft.v1";
-inline constexpr std::array<const char*, 2> kCapabilities{"flow.ack", "flow.level"};
+inline constexpr std::array<const char*, 3> kCapabilities{"flow.ack", "flow.level", "grid.rice"};
 
 /// Section 6, with its defaults.
 struct Limits {

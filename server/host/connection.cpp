@@ -77,6 +77,7 @@ void Connection::answer(const Request& request, const protocol::Hello& hello) {
     common.push_back(known);
     if (known == "flow.ack") viewer_->enable_acks(hello.window);
     if (known == "flow.level") viewer_->enable_levels();
+    if (known == "grid.rice") viewer_->enable_rice();
   }
   ok(request, {{"caps", common}});
 }

@@ -79,10 +79,11 @@ void FrameEncoder::set_flags(std::uint16_t flags) {
 }
 
 std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>& levels,
-                                                          const std::optional<ViewCone>& picture) {
+                                                          const std::optional<ViewCone>& picture,
+                                                          protocol::GridCoding coding) {
   std::vector<Encoding> encodings;
   for (std::size_t i = 0; i < cloths_.size(); ++i)
-    encodings.push_back(encoding(i, std::min(levels[i], cloths_[i].level), picture));
+    encodings.push_back(encoding(i, std::min(levels[i], cloths_[i].level), picture, coding));
   auto& message = messages_[encodings];
   if (message) return message;
   auto made = std::make_shared<FrameMessage>();
@@ -95,25 +96,27 @@ std::shared_ptr<const FrameMessage> FrameEncoder::message(const std::vector<int>
 }
 
 FrameEncoder::Encoding FrameEncoder::encoding(std::size_t cloth, int level,
-                                              const std::optional<ViewCone>& picture) {
-  if (!picture) return {level, protocol::kMinQuantumExponent};
+                                              const std::optional<ViewCone>& picture,
+                                              protocol::GridCoding coding) {
+  if (!picture) return {level, protocol::kMinQuantumExponent, coding};
   ShownCloth& shown = cloths_[cloth];
   if (shown.box.isEmpty()) {
     const auto [low, high] =
         protocol::box_of(coarsened(shown.position, shown.place, shown.level, shown.level));
     shown.box = {Vec3(low[0], low[1], low[2]), Vec3(high[0], high[1], high[2])};
   }
-  return {level, exponent_for_picture(*picture, shown.box, std::ldexp(shown.cell, -level))};
+  return {level, exponent_for_picture(*picture, shown.box, std::ldexp(shown.cell, -level)), coding};
 }
 
 const Record& FrameEncoder::cloth_record(std::size_t cloth, const Encoding& encoding) {
-  const auto [level, exponent] = encoding;
+  const int level = encoding.level;
   ShownCloth& shown = cloths_[cloth];
   Record& record = shown.records[encoding];
   if (record) return record;
   const auto index = static_cast<std::uint32_t>(cloth);
   const protocol::GridView grid = coarsened(shown.position, shown.place, shown.level, level);
-  auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid, exponent);
+  auto bytes = protocol::encode_cloth_record(stamp_, index, level, shown.level, kBits, grid,
+                                             encoding.exponent, encoding.coding);
   std::size_t last = 0;  // where the last of the two begins
   const auto torn = shown.walls ? shown.walls->at(level).torn_faces() : std::vector<std::uint32_t>{};
   if (!torn.empty()) {

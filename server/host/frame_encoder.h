@@ -1,6 +1,7 @@
 #pragma once
-/// The state that viewers are shown, and its encodings: one a cloth, level and lattice, whoever asks.
+/// The state that viewers are shown, and its encodings: one a cloth, level, lattice and coding, whoever asks.
 #include <Eigen/Geometry>
+#include <compare>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,13 +36,18 @@ class FrameEncoder {
   /// picture that cone just holds, as exact as the picture shows (exponent_for_picture); without one as exact
   /// as can be.
   std::shared_ptr<const FrameMessage> message(const std::vector<int>& levels,
-                                              const std::optional<ViewCone>& picture = {});
+                                              const std::optional<ViewCone>& picture = {},
+                                              protocol::GridCoding coding = protocol::GridCoding::plain);
   /// Records encoded so far.
   std::uint64_t encodes() const { return encodes_; }
 
  private:
-  /// Level, and exponent of the least quantum.
-  using Encoding = std::pair<int, int>;
+  struct Encoding {
+    int level = 0;
+    int exponent = 0;  ///< of the least quantum
+    protocol::GridCoding coding = protocol::GridCoding::plain;
+    auto operator<=>(const Encoding&) const = default;
+  };
   struct ShownCloth {
     int level = 0;
     Vec3 place{0, 0, 0};          ///< Particles::place
@@ -52,7 +58,8 @@ class FrameEncoder {
     std::map<Encoding, Record> records;
   };
   /// How `cloth` is sent at `level` to a viewer with that picture.
-  Encoding encoding(std::size_t cloth, int level, const std::optional<ViewCone>& picture);
+  Encoding encoding(std::size_t cloth, int level, const std::optional<ViewCone>& picture,
+                    protocol::GridCoding coding);
   /// With its tears, if it has any.
   const Record& cloth_record(std::size_t cloth, const Encoding& encoding);
   /// Balls, then obstacles; no record for none.

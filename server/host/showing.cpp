@@ -44,7 +44,8 @@ void LiveScene::publish(std::uint32_t server_ms) {
   encoder_.set_flags(flags());
   for (Seat& seat : seats_) {
     if (frame_due_ || seat.wants_frame)
-      seat.viewer->publish(seat.visit, encoder_.message(sent_levels(seat), seat.cone));
+      seat.viewer->publish(seat.visit,
+                           encoder_.message(sent_levels(seat), seat.cone, seat.viewer->grid_coding()));
     seat.wants_frame = false;
   }
   frame_due_ = false;

@@ -141,6 +141,16 @@ bool Viewer::takes_coarser() const {
   return levels_;
 }
 
+void Viewer::enable_rice() {
+  const std::lock_guard lock(mutex_);
+  grid_coding_ = protocol::GridCoding::rice;
+}
+
+protocol::GridCoding Viewer::grid_coding() const {
+  const std::lock_guard lock(mutex_);
+  return grid_coding_;
+}
+
 Viewer::Flow Viewer::flow(TimePoint now) {
   const std::lock_guard lock(mutex_);
   Flow flow = std::exchange(flow_, {});

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/way.h"
+#include "protocol/frame.h"
 
 namespace weft::host {
 
@@ -92,6 +93,9 @@ class Viewer {
   /// Capability flow.level: what is sent may be coarser where the link carries too little.
   void enable_levels();
   bool takes_coarser() const;
+  /// Capability grid.rice: it reads the smaller coding of grids.
+  void enable_rice();
+  protocol::GridCoding grid_coding() const;
   /// What became of frames.
   struct Flow {
     int published = 0, dropped = 0;
@@ -131,6 +135,7 @@ class Viewer {
   int window_ = 0;       ///< 0: without flow.ack
   int more_ = 0;         ///< frames that may be on the way beside those
   bool levels_ = false;  ///< flow.level
+  protocol::GridCoding grid_coding_ = protocol::GridCoding::plain;
   Way way_;
   Seconds taken_{};  ///< from sending a frame to its acknowledgement, smoothed
   Flow flow_;        ///< since the last flow()

@@ -31,7 +31,9 @@ using beast::error_code;
 
 namespace {
 
-constexpr auto kRequestTime = std::chrono::seconds(10);   // for the whole header, and between requests
+/// For the first request's whole header, the TLS handshake before it included; and for each further one's,
+/// the wait for it included.
+constexpr auto kRequestTime = std::chrono::seconds(5);
 constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
 constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
@@ -64,8 +66,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void start() {
     const TlsContext certificate = context_.secrets.get()->tls;
-    if (!certificate) return read();
     tcp().expires_after(kRequestTime);
+    if (!certificate) return read();
     beast::async_detect_ssl(
         tcp(), buffer_, [self = shared_from_this(), certificate](error_code error, bool tls) {
           if (error) return self->end();
@@ -91,7 +93,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     parser_.emplace();
     parser_->header_limit(kHeaderBytes);
     parser_->body_limit(context_.host.making().document_bytes);
-    tcp().expires_after(kRequestTime);
     http::async_read_header(
         stream_, buffer_, *parser_,
         [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
@@ -338,6 +339,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     tcp().expires_after(kResponseTime);
     http::async_write(stream_, *response_, [self = shared_from_this(), last](error_code error, std::size_t) {
       if (error || last) return self->end();
+      self->tcp().expires_after(kRequestTime);
       self->read();
     });
   }

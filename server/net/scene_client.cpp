@@ -147,6 +147,7 @@ void SceneClient::connect() {
   acks_ = false;
   joining_.reset();
   std::vector<std::string> wanted{"flow.ack"};
+  if (options_.compact) wanted.emplace_back("grid.rice");
   if (options_.coarser) wanted.emplace_back("flow.level");
   hello_ = post(protocol::Hello{options_.name, std::move(wanted), options_.window});
 }

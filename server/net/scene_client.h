@@ -35,6 +35,7 @@ struct SceneClientOptions {
   std::string name = "weft client";       ///< told to the server
   int window = 4;                         ///< frames on their way that are not acknowledged, 1..8
   bool coarser = false;                   ///< where the link carries too few frames levels may be coarser
+  bool compact = true;                    ///< frames a fifth smaller, whose decoding takes longer
   std::chrono::milliseconds limit{5000};  ///< to connect, and for each answer
   ClientSecurity security;
   /// A connection that breaks is made again, tried after 0.25, 0.5, 1 s and so on to 10 s: at the same

@@ -26,7 +26,7 @@ using beast::error_code;
 
 namespace {
 
-constexpr auto kHandshakeTime = std::chrono::seconds(10);
+constexpr auto kHandshakeTime = std::chrono::seconds(5);
 /// A viewer that neither sends nor answers pings for so long is gone.
 constexpr auto kIdleTime = std::chrono::seconds(60);
 /// For a viewer to take what it is sent last, and to answer the close.

@@ -92,6 +92,12 @@ test('asks for coarser levels only if told to', async () => {
   assert.deepEqual(await server.expect('hello'), { op: 'hello', id: 1, caps: ['flow.level'] });
 });
 
+test('asks for compact frames only if told to', async () => {
+  const server = await serve();
+  await join(server, { compact: true, window: 0 });
+  assert.deepEqual(await server.expect('hello'), { op: 'hello', id: 1, caps: ['grid.rice'] });
+});
+
 test('closed while its socket is made, it makes no connection', async () => {
   const server = await serve();
   const states = [];

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "protocol/rice_codec.h"
 #include "vectors.h"
 
 namespace weft::protocol {
@@ -122,21 +123,23 @@ TEST(Frame, EncodingGivesTheVectorsBytes) {
     const int rows = cloth["rows"], cols = cloth["cols"];
     const GridView grid{{axes[0].data(), axes[1].data(), axes[2].data()}, rows, cols, cols, 1};
 
-    std::vector<std::uint8_t> payload;
-    encode_grid(grid, lattice, payload);
     const auto bytes = from_hex(vector["hex"]);
+    const bool rice = bytes[10] == 4;  // the header's codec
+    std::vector<std::uint8_t> payload;
+    (rice ? encode_rice_grid : encode_grid)(grid, lattice, payload);
     const auto found = std::search(bytes.begin(), bytes.end(), payload.begin(), payload.end());
     EXPECT_NE(found, bytes.end()) << "payload differs";
 
     if (cloth["finest"] && bytes.size() == kHeaderBytes + payload.size() && stamp_of(expect).flags == 0) {
       ++whole_records;
       auto record = encode_cloth_record(stamp_of(expect), cloth["cloth"], cloth["level"],
-                                        cloth["simulated_level"], cloth["bits"], grid);
+                                        cloth["simulated_level"], cloth["bits"], grid, kMinQuantumExponent,
+                                        rice ? GridCoding::rice : GridCoding::plain);
       mark_last(record, 0);
       EXPECT_EQ(record, bytes);
     }
   }
-  EXPECT_GE(whole_records, 4);
+  EXPECT_GE(whole_records, 6);
 }
 
 TEST(Frame, TearsRecordGivesTheVectorsBytes) {

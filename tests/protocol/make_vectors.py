@@ -52,6 +52,74 @@ def grid_payload(axes, rows, cols, width=None):
     return payload
 
 
+def differences(q, rows, cols):
+    """Of codec 4."""
+    def at(r, c):
+        return q[r * cols + c]
+    d = {(0, 0): at(0, 0), (0, 1): at(0, 1) - at(0, 0), (1, 0): at(1, 0) - at(0, 0)}
+    for c in range(2, cols):
+        d[0, c] = at(0, c) - 2 * at(0, c - 1) + at(0, c - 2)
+    for r in range(2, rows):
+        d[r, 0] = at(r, 0) - 2 * at(r - 1, 0) + at(r - 2, 0)
+    for r in range(1, rows):
+        for c in range(1, cols):
+            d[r, c] = at(r, c) - at(r, c - 1) - at(r - 1, c) + at(r - 1, c - 1)
+    return d
+
+
+def rice_residuals(q, rows, cols):
+    """Zig-zagged residuals of codec 4, by (r, c)."""
+    d, z = differences(q, rows, cols), {}
+    for (r, c), value in d.items():
+        expected = 0
+        if r >= 2 and 2 <= c <= cols - 2:
+            expected = math.floor((6 * d[r - 1, c - 1] + 5 * d[r - 1, c] + 5 * d[r - 1, c + 1] + 8) / 16)
+        z[r, c] = zigzag(value - expected)
+    return z
+
+
+def rice_parameter(z, r, c, cols):
+    """Of a value of a row beyond the first, from those above it."""
+    def near(up, right):
+        return z[max(r - up, 0), min(max(c + right, 0), cols - 1)]
+    total = (near(1, -2) + 2 * near(1, -1) + 3 * near(1, 0) + 2 * near(1, 1) + near(1, 2)
+             + near(2, -1) + 2 * near(2, 0) + near(2, 1) + 3 * near(3, 0))
+    return max(math.floor(total / 16).bit_length() - 1, 0)
+
+
+def rice_code(z, k):
+    """Quotient and remainder of a value, as text, first bit first."""
+    if z >> k < 20:
+        quotient, width = z >> k, k
+    else:
+        quotient, width = 20, 19
+    return "0" * quotient + "1", format(z % 2 ** width, f"0{width}b")[::-1] if width else ""
+
+
+def rice_payload(axes, rows, cols):
+    """Codec 4; `axes` holds one flat list of integers each."""
+    planes = [rice_residuals(q, rows, cols) for q in axes]
+    first, parts = [], ["", ""]
+
+    def codes(z, r, parameter):
+        return [rice_code(z[r, c], parameter(c)) for c in range(cols)]
+    for r in range(rows):
+        for z in planes:
+            if r == 0:
+                first.append(min(range(19), key=lambda k: sum(len("".join(code)) for code in codes(z, 0, lambda c: k))))
+                row = codes(z, 0, lambda c: first[-1])
+            else:
+                row = codes(z, r, lambda c: rice_parameter(z, r, c, cols))
+            for i in range(2):
+                parts[i] += "".join(code[i] for code in row)
+    return rice_parts(first, *parts)
+
+
+def rice_parts(first, quotients, remainders):
+    packed = [pack([int(bit) for bit in part], 1) for part in (quotients, remainders)]
+    return bytes([*first, 0]) + struct.pack("<I", len(packed[0])) + b"".join(packed)
+
+
 def record(payload, *, magic=b"WEFT", version=1, kind=1, flags=LAST, header_length=64, codec=1, bits=16, cloth=0, f=120,
            epoch=1, time=2.0, server_ms=4115200, level=5, simulated_level=6, cols=0, rows=0, origin=(0, 0, 0), quantum=1.0,
            payload_length=None):
@@ -66,12 +134,15 @@ class Cloth:
     """A cloth record with what it must decode to."""
 
     def __init__(self, axes, rows, cols, *, bits=16, origin=(0.0, 0.0, 0.0), quantum=2.0 ** -14, width=None, finest=False, **head):
+        # Head has codec=4 where it is to be written by that.
         self.axes, self.rows, self.cols, self.bits, self.origin, self.quantum = axes, rows, cols, bits, origin, quantum
         self.width, self.finest, self.head = width, finest, head
         self.torn = []
 
     def bytes(self, **more):
-        return record(grid_payload(self.axes, self.rows, self.cols, self.width), bits=self.bits, cols=self.cols, rows=self.rows,
+        payload = (rice_payload(self.axes, self.rows, self.cols) if self.head.get("codec") == 4
+                   else grid_payload(self.axes, self.rows, self.cols, self.width))
+        return record(payload, bits=self.bits, cols=self.cols, rows=self.rows,
                       origin=self.origin, quantum=self.quantum, **{**self.head, **more})
 
     def expected(self):
@@ -186,6 +257,17 @@ def good():
         single("still", "no extent at all: the finest quantum allowed", still),
         single("far", "origin so far that decoding rounds to f32", far),
         single("wide_groups", "groups wider than their values need are read all the same", padded),
+        single("rice_2x2", "codec 4 on whole metres, the example of PROTOCOL.md",
+               Cloth(SMALL.axes, 2, 2, bits=8, quantum=1.0, codec=4)),
+        single("rice_9x9", "codec 4 of a hanging sheet", made(wavy(9, 9, 16, 0.2, 2.0 ** -14), head={"codec": 4}, finest=True)),
+        single("rice_17x17", "codec 4 of a hanging sheet", made(wavy(17, 17, 14, 1.3, 2.0 ** -12), head={"codec": 4}, finest=True)),
+        single("rice_33x5", "codec 4, more rows than columns", made(wavy(33, 5, 14, 0.6, 2.0 ** -12), head={"codec": 4})),
+        single("rice_2x9", "codec 4, two rows", made(wavy(2, 9, 16, 0.6, 2.0 ** -14), head={"codec": 4})),
+        single("rice_still", "codec 4 without extent: parameters of 0, no remainders but the first",
+               Cloth([[0] * 6, [0] * 6, [7] * 6], 3, 2, quantum=2.0 ** -14, codec=4)),
+        single("rice_extremes", "codec 4, values that are written whole, and the largest differences",
+               Cloth([[0, 0, 0, 0, 0, 0] * 3 + [0, top, 0, top, 0, top] * 2, [top, 0] * 15, ([0, top, 0, top, 0, top] + [top, 0] * 3) * 2 + [0] * 6],
+                     5, 6, codec=4)),
         message("several", "two cloths and three balls of one step",
                 [first.bytes(flags=0), second.bytes(flags=0), balls_record(BALLS)], [first, second], BALLS),
         message("balls_only", "a scene without cloth", [balls_record(BALLS[:1])], [], BALLS[:1]),
@@ -215,10 +297,14 @@ def good():
 def bad():
     small, payload = SMALL.bytes(), grid_payload(SMALL.axes, 2, 2)
     inf, nan = math.inf, math.nan
+    quotients = "quotients that are not as many as values, or too large"
     ball = balls_record(BALLS[:1])
 
     def cloth(body=payload, **head):
         return record(body, **{"bits": 8, "cols": 2, "rows": 2, **head})
+
+    def rice(body):
+        return cloth(body, codec=4)
 
     def torn_small(body, **head):
         return SMALL.bytes(flags=0) + tears_record(SMALL, body, **head)
@@ -279,6 +365,23 @@ def bad():
         # The first residual alone: z = 512 is e = 256, one too many for 8 bits; z = 1 is e = -1.
         ("value_256", cloth(bytes([10]) + pack([512, 511, 0, 0], 10) + b"\0\0"), "value outside 8 bits"),
         ("value_negative", cloth(bytes([1]) + pack([1, 0, 0, 0], 1) + b"\0\0"), "value outside 8 bits"),
+        ("rice_empty", rice(b""), "grid payload too short"),
+        ("rice_first_parts_only", rice(bytes(9)), "grid payload too short"),
+        ("rice_parameter_19", rice(rice_parts([0, 19, 0], "1" * 12, "")), "first parameter 19"),
+        ("rice_quotients_beyond", rice(bytes(4) + struct.pack("<I", 3) + b"\xff\x0f"), "grid payload too short"),
+        ("rice_quotient_missing", rice(rice_parts([0, 0, 0], "1" * 11, "")), quotients),
+        ("rice_quotient_more", rice(rice_parts([0, 0, 0], "1" * 13, "")), quotients),
+        ("rice_quotient_21", rice(rice_parts([0, 0, 0], "0" * 21 + "1" * 12, "")), quotients),
+        ("rice_quotient_byte_more", rice(rice_parts([0, 0, 0], "1" * 12 + "0" * 8, "")), quotients),
+        ("rice_remainders_cut", rice(rice_parts([4, 0, 0], "1" * 12, "")), "grid payload too short"),
+        ("rice_remainders_more", rice(rice_parts([0, 0, 0], "1" * 12, "00000000")), "1 bytes after the grid payload"),
+        # 2 * 2^18 is the first that is too large; its quotient is 2, its parameter 18.
+        ("rice_residual_beyond", rice(rice_parts([18, 0, 0], "001" + "1" * 11, "0" * 36 + "0" * 200)), "residual beyond 19 bits"),
+        # 262142 is e = 131071; 12 and 4 of 16 times that give the row below parameters of 17 and 15; of 512, 8 and 7.
+        ("rice_difference_beyond", rice(rice_parts([0, 0, 0], "0" * 20 + "1" * 12, format(262142, "019b")[::-1] + "0" * 32)), "difference beyond 131070"),
+        ("rice_value_256", rice(rice_parts([0, 0, 0], "0" * 20 + "1" * 12, format(512, "019b")[::-1] + "0" * 15)), "value outside 8 bits"),
+        ("rice_value_negative", rice(rice_parts([0, 0, 0], "01" + "1" * 11, "")), "value outside 8 bits"),
+        ("cloth_codec_5", cloth(codec=5), "codec 5"),
         ("balls_codec_1", one_ball(codec=1), "codec 1"),
         ("balls_rows_2", one_ball(rows=2), "balls in more than one row"),
         ("balls_count_2", one_ball(cols=2), "balls of another length than their number"),

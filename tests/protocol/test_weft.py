@@ -161,6 +161,10 @@ class Client(unittest.IsolatedAsyncioTestCase):
         async with Server() as server, await weft.connect(server.url, coarser=True, window=0):
             self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "caps": ["flow.level"]})
 
+    async def test_asks_for_compact_frames_only_if_told_to(self):
+        async with Server() as server, await weft.connect(server.url, compact=True, window=0):
+            self.assertEqual(await server.expect("hello"), {"op": "hello", "id": 1, "caps": ["grid.rice"]})
+
     async def test_the_surface_of_a_mesh_is_asked_for_beside_the_scene(self):
         surface, asked = {"vertices": [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], "triangles": [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]}, []
 

@@ -1,6 +1,8 @@
 """The server's HTTP side: page, list, health, and everything it refuses."""
+import contextlib
 import json
 import socket
+import threading
 import unittest
 
 from serving import GENEROUS, SCENES, Server, page_directory
@@ -116,7 +118,27 @@ class Http(unittest.TestCase):
     def test_one_that_never_ends_its_header_is_cut(self):
         with socket.create_connection(("127.0.0.1", self.server.port), GENEROUS) as slow:
             slow.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ")
-            self.assertEqual(slow.recv(1), b"")  # after the server's 10 s
+            self.assertEqual(slow.recv(1), b"")  # after the server's 5 s
+
+    def test_each_byte_of_a_header_buys_no_more_time(self):
+        with socket.create_connection(("127.0.0.1", self.server.port), GENEROUS) as slow:
+            slow.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ")
+            sent, ended = 0, threading.Event()
+
+            def dribble():
+                nonlocal sent
+                with contextlib.suppress(OSError):
+                    while not ended.wait(0.25):
+                        slow.sendall(b"x")
+                        sent += 1
+            writer = threading.Thread(target=dribble)
+            writer.start()
+            with contextlib.suppress(ConnectionResetError):
+                self.assertEqual(slow.recv(1), b"")
+            ended.set()
+            writer.join()
+        # 20 fit into the server's 5 s; were the time to begin anew with each, the server would never close.
+        self.assertLessEqual(sent, 30)
 
     # --- The upgrade to a WebSocket ---
 

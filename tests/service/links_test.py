@@ -2,6 +2,7 @@
 what they are sent follows what it carries, and they are told."""
 import asyncio
 import contextlib
+import random
 import re
 import socket
 import time
@@ -83,6 +84,25 @@ class NarrowWay:
         writer.close()
 
 
+class LossyWay(NarrowWay):
+    """1 Mbit/s, 100 ms there and back, 1 % of the server's segments lost. TCP sends what is lost again: what comes after it waits
+    for that, as long as Linux' shortest timeout and a way (RFC 6298), where no later segment tells of the loss."""
+    RATE, PIECE, HALF_WAY, LOST, STALL = 125_000, 1448, 0.05, 0.01, 0.3  # bytes a second, bytes, s, share, s
+
+    def __init__(self, port, chance):
+        super().__init__(port)
+        self.chance = chance
+
+    async def hand_on(self, reader, writer, narrow):
+        loop = asyncio.get_running_loop()
+        with contextlib.suppress(ConnectionError):
+            while data := await reader.read(self.PIECE):
+                if narrow:
+                    await asyncio.sleep(len(data) / self.RATE + (self.STALL if self.chance.random() < self.LOST else 0))
+                loop.call_later(self.HALF_WAY, lambda data=data: writer.is_closing() or writer.write(data))
+        loop.call_later(self.HALF_WAY, writer.close)
+
+
 class Links(unittest.IsolatedAsyncioTestCase):
     def setUp(self):
         self.server = Server(SCENES / "hung.json")
@@ -152,6 +172,23 @@ class Links(unittest.IsolatedAsyncioTestCase):
             stats = await self.until_stats(client, lambda stats: "coarser" not in stats)
             self.assertNotIn("limit", stats)
             await client.next_frame(lambda frame: frame.cloths[0].level == 6)
+
+    async def test_a_lossy_link_gets_a_coarser_level_and_keeps_its_viewer(self):
+        async with LossyWay(self.server.port, random.Random(1)) as way:
+            client = await weft.connect(way.url, timeout=GENEROUS, coarser=True)
+            self.addAsyncCleanup(client.close)
+            await client.camera(distance=0.8)
+            for _ in range(3):
+                await client.ping()  # for the frames' age
+            await self.until_stats(client, lambda stats: stats.get("coarser", 0) >= 1 and stats["limit"] == "link")
+            first, ages = (await client.next_frame()).stamp, []
+            while (frame := await client.next_frame()).stamp.time < first.time + 5:
+                ages.append(client.age(frame))
+            ages.sort()
+            print(f"lossy link: 95 % of {len(ages)} frames younger than {ages[len(ages) * 95 // 100]:.0f} ms")
+            # 300 steps are made meanwhile; level 4 has 1.4 kB a frame, so that 89 a second would fit if nothing were lost.
+            self.assertGreater(len(ages), 30)
+            self.assertNotIn(b"weft_closed_viewers_total{", self.server.get("/metrics")[2])
 
     async def test_without_asking_for_it_no_level_is_lost(self):
         async with NarrowWay(self.server.port) as way:

@@ -24,16 +24,27 @@ class Pictures(unittest.IsolatedAsyncioTestCase):
         text = self.server.get("/metrics")[2]
         return [int(re.search(rb"^weft_sent_%s_total (\d+)" % name, text, re.MULTILINE)[1]) for name in (b"frames", b"frame_bytes")]
 
+    async def bytes_a_node(self, viewer):
+        """Of the flag's frames at level 6, the mean of some."""
+        await viewer.next_frame(lambda frame: frame.cloths[0].level == 6 and frame.stamp.f >= 60)
+        before = self.sent()
+        for _ in range(FRAMES):
+            frame = await viewer.next_frame()
+        frames, sent = (now - then for now, then in zip(self.sent(), before))
+        self.assertEqual((frame.cloths[0].rows, frame.cloths[0].cols), (65, 65))
+        return sent / frames / 65**2
+
     async def test_a_flag_at_level_6_takes_two_bytes_a_node(self):
         async with await weft.connect(self.server.url("flag"), timeout=GENEROUS) as viewer:
             await viewer.camera(eye=EYE, target=TARGET, half_angle=HALF_ANGLE)
-            await viewer.next_frame(lambda frame: frame.cloths[0].level == 6 and frame.stamp.f >= 60)
-            before = self.sent()
-            for _ in range(FRAMES):
-                frame = await viewer.next_frame()
-            frames, sent = (now - then for now, then in zip(self.sent(), before))
-            self.assertEqual((frame.cloths[0].rows, frame.cloths[0].cols), (65, 65))
-            self.assertLessEqual(sent / frames / 65**2, 2.0)  # of 3.27 on the finest lattice
+            self.assertLessEqual(await self.bytes_a_node(viewer), 2.0)  # of 3.27 on the finest lattice
+
+    async def test_compact_it_takes_2_7_on_the_finest_lattice(self):
+        async with await weft.connect(self.server.url("flag"), timeout=GENEROUS, compact=True) as viewer:
+            await viewer.camera(eye=EYE)
+            size = await self.bytes_a_node(viewer)
+            print(f"{size:.3f} bytes a node")
+            self.assertLessEqual(size, 2.7)
 
     async def test_what_is_seen_is_the_same(self):
         async with await weft.connect(self.server.url("flag"), timeout=GENEROUS) as viewer, \

@@ -127,7 +127,7 @@ class Tls(unittest.IsolatedAsyncioTestCase):
             with self.subTest(bytes_sent[:8]), socket.create_connection(("127.0.0.1", server.port), GENEROUS) as connection:
                 connection.sendall(bytes_sent)
                 self.assertIn(b"200 OK", self.get(self.secure(server), "/healthz"))
-                while connection.recv(4096):  # an alert, or nothing: then it is closed, at the latest after 10 s
+                while connection.recv(4096):  # an alert, or nothing: then it is closed, at the latest after 5 s
                     pass
 
     async def test_sighup_takes_a_new_certificate_and_keeps_who_is_there(self):

@@ -70,6 +70,7 @@ function open() {
     token: token ?? undefined,
     reconnect: true,
     coarser: true,
+    compact: true,
     local: true,
     onmessage: (message) => {
       if (mine !== client) return;

@@ -158,8 +158,8 @@ export class WeftClient extends Commands {
   /** One attempt to connect: done when the server has greeted, sent the scene, and answered `hello`. */
   async #attempt() {
     if (this.#closed) throw new WeftError('closed', 'closed by this client');
-    const { window: frames, client, coarser, token } = this.#options;
-    const caps = [...(frames ? ['flow.ack'] : []), ...(coarser ? ['flow.level'] : [])];
+    const { window: frames, client, coarser, compact, token } = this.#options;
+    const caps = [...(frames ? ['flow.ack'] : []), ...(coarser ? ['flow.level'] : []), ...(compact ? ['grid.rice'] : [])];
     const socket = await openSocket(this.#url, token, this.#options.WebSocket);
     if (this.#closed) {  // while the socket was made
       socket.onerror = () => {};  // what `ws` says of a connection that is not awaited

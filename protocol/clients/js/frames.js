@@ -1,6 +1,7 @@
 /** Binary messages: a step as records (PROTOCOL.md section 4). */
 import { malformed } from './errors.js';
 import { decodeGrid } from './grid.js';
+import { decodeRiceGrid } from './rice.js';
 
 /**
  * @typedef {import('./types.js').Ball} Ball
@@ -77,7 +78,9 @@ function readStamp(view, at) {
 
 /** @param {DataView} view @param {number} at where the record begins @param {Uint8Array} payload @param {boolean} local @returns {Cloth} */
 function readCloth(view, at, payload, local) {
-  if (view.getUint8(at + 10) !== 1) malformed(`codec ${view.getUint8(at + 10)}`);
+  const codec = view.getUint8(at + 10);
+  if (codec !== 1 && codec !== 4) malformed(`codec ${codec}`);
+  const decode = codec === 4 ? decodeRiceGrid : decodeGrid;
   const bits = view.getUint8(at + 11);
   if (bits < 8 || bits > 16) malformed(`${bits} bits`);
   const cols = view.getUint16(at + 40, true), rows = view.getUint16(at + 42, true);
@@ -97,7 +100,7 @@ function readCloth(view, at, payload, local) {
     cols,
     quantum,
     origin: from,
-    positions: decodeGrid(payload, rows, cols, bits, origin.map((value, axis) => value - from[axis]), quantum),
+    positions: decode(payload, rows, cols, bits, origin.map((value, axis) => value - from[axis]), quantum),
     torn: [],
   };
 }

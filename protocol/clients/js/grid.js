@@ -11,7 +11,7 @@ const MIN_SIDE = 2, MAX_SIDE = 1025;
  * @param {number[]} origin @param {number} quantum @returns {Float32Array}
  */
 export function decodeGrid(payload, rows, cols, bits, origin, quantum) {
-  if (rows < MIN_SIDE || rows > MAX_SIDE || cols < MIN_SIDE || cols > MAX_SIDE) malformed(`grid of ${rows} rows and ${cols} columns`);
+  checkSides(rows, cols);
   const nodes = rows * cols;
   // A group is at least its width byte: no payload buys more memory than it is long.
   if (payload.length < 3 * Math.ceil(nodes / GROUP)) malformed('grid payload too short');
@@ -56,4 +56,9 @@ export function decodeGrid(payload, rows, cols, bits, origin, quantum) {
   }
   if (at !== payload.length) malformed(`${payload.length - at} bytes after the grid payload`);
   return positions;
+}
+
+/** @param {number} rows @param {number} cols */
+export function checkSides(rows, cols) {
+  if (rows < MIN_SIDE || rows > MAX_SIDE || cols < MIN_SIDE || cols > MAX_SIDE) malformed(`grid of ${rows} rows and ${cols} columns`);
 }

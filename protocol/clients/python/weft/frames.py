@@ -7,13 +7,14 @@ import typing
 
 from .errors import malformed
 from .grid import decode_grid
+from .rice import decode_rice_grid
 from .types import Ball, Cloth, Frame, MovedObstacle, Stamp
 
 _HEADER = struct.Struct("<4sBBHHBBIIIdIBBHHH3ffI")
 _BALL = struct.Struct("<I4fI")
 _OBSTACLE = struct.Struct("<I7f")
 _LAST, _PAUSED, _SLOW = 1, 2, 4
-_CODECS = {1: 1, 2: 2, 3: 2, 4: 3}  # of each kind of record
+_CODECS = {1: (1, 4), 2: (2,), 3: (2,), 4: (3,)}  # of each kind of record
 
 
 def decode_frame(message: bytes) -> Frame:
@@ -46,12 +47,13 @@ def decode_frame(message: bytes) -> Frame:
             frame = Frame(Stamp(f, epoch, time, server_ms, bool(flags & _PAUSED), bool(flags & _SLOW)), [], [], [])
         elif (f, epoch) != (frame.stamp.f, frame.stamp.epoch):
             raise malformed("records of different steps")
-        if codec != _CODECS.get(kind, codec):
+        if codec not in _CODECS.get(kind, (codec,)):
             raise malformed(f"codec {codec}")
         payload = view[at + header_length:at + header_length + payload_length]
         at += header_length + payload_length
         if kind == 1:
-            positions = decode_grid(payload, rows, cols, bits, (x, y, z), quantum)
+            decode = decode_rice_grid if codec == 4 else decode_grid
+            positions = decode(payload, rows, cols, bits, (x, y, z), quantum)
             frame.cloths.append(Cloth(cloth, level, simulated_level, quantum, positions))
         elif kind == 2:
             frame.balls += _decode_balls(payload, rows, cols)

@@ -20,6 +20,19 @@ PADDING = bytes(GROUP * MAX_WIDTH // 8 + 4)
 def decode_grid(payload: memoryview, rows: int, cols: int, bits: int, origin: typing.Tuple[float, float, float],
                 quantum: float) -> npt.NDArray[np.float32]:
     """Positions (rows, cols, 3), m: three axes of zig-zagged residuals in groups of 16."""
+    top = check_grid(rows, cols, bits, origin, quantum)
+    residuals, end = _residuals(payload, rows * cols)
+    # q - P is d - (d to the left), with d = q - (q above).
+    values = residuals.reshape(3, rows, cols).cumsum(axis=2).cumsum(axis=1)
+    if values.min() < 0 or values.max() > top:
+        raise malformed(f"value outside {bits} bits")
+    if end != len(payload):
+        raise malformed(f"{len(payload) - end} bytes after the grid payload")
+    return positions_of(values, origin, quantum)
+
+
+def check_grid(rows: int, cols: int, bits: int, origin: typing.Tuple[float, float, float], quantum: float) -> int:
+    """The largest value of a grid's lattice, if its header's fields can be a grid's."""
     if not 8 <= bits <= 16:
         raise malformed(f"{bits} bits")
     top = (1 << bits) - 1
@@ -30,13 +43,11 @@ def decode_grid(payload: memoryview, rows: int, cols: int, bits: int, origin: ty
         raise malformed("unusable origin or quantum")
     if not (MIN_SIDE <= rows <= MAX_SIDE and MIN_SIDE <= cols <= MAX_SIDE):
         raise malformed(f"grid of {rows} rows and {cols} columns")
-    residuals, end = _residuals(payload, rows * cols)
-    # q - P is d - (d to the left), with d = q - (q above).
-    values = residuals.reshape(3, rows, cols).cumsum(axis=2).cumsum(axis=1)
-    if values.min() < 0 or values.max() > top:
-        raise malformed(f"value outside {bits} bits")
-    if end != len(payload):
-        raise malformed(f"{len(payload) - end} bytes after the grid payload")
+    return top
+
+
+def positions_of(values: npt.NDArray[np.int64], origin: typing.Tuple[float, float, float], quantum: float) -> npt.NDArray[np.float32]:
+    """Values (3, rows, cols) on the lattice as positions (rows, cols, 3), m."""
     positions = np.array(origin) + values.transpose(1, 2, 0) * quantum
     return np.ascontiguousarray(positions, dtype=np.float32)
 

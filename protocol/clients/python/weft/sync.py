@@ -15,13 +15,13 @@ from .types import Frame, Message
 T = typing.TypeVar("T")
 
 
-def open(url: str, *, client: str | None = None, window: int = 2, coarser: bool = False, timeout: float = 5.0,
-         on_message: OnMessage | None = None, token: str | None = None, tls: ssl.SSLContext | None = None,
+def open(url: str, *, client: str | None = None, window: int = 2, coarser: bool = False, compact: bool = False,
+         timeout: float = 5.0, on_message: OnMessage | None = None, token: str | None = None, tls: ssl.SSLContext | None = None,
          reconnect: bool = False) -> Scene:
     """Connects to a scene: `connect` for programs and notebooks that do not use asyncio. What it may be told is the same;
     `on_message` is called by a thread of the connection's own, and must not call the scene."""
-    return Scene(connect(url, client=client, window=window, coarser=coarser, timeout=timeout, on_message=on_message, token=token,
-                         tls=tls, reconnect=reconnect))
+    return Scene(connect(url, client=client, window=window, coarser=coarser, compact=compact, timeout=timeout,
+                         on_message=on_message, token=token, tls=tls, reconnect=reconnect))
 
 
 class Scene(SyncCommands):

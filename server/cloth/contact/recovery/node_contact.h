@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -39,8 +40,10 @@ struct MovingSolid {
   /// So many chords of a way seen from it differ from the arc by at most 1/800 of the distance from its axis.
   int chords() const {
     if (!solid->turns()) return 1;
-    constexpr double kAngle = 0.1;  // rad
-    return static_cast<int>(std::ceil((substep.to - substep.from) * solid->turn.norm() / kAngle));
+    constexpr double kAngle = 0.1;      // rad
+    constexpr double kMostChords = 63;  // a whole turn: what turns faster is looked at no more often
+    return static_cast<int>(
+        std::min(std::ceil((substep.to - substep.from) * solid->turn.norm() / kAngle), kMostChords));
   }
 };
 

@@ -130,5 +130,17 @@ TEST(NodeContact, AFastNodeStopsWhereItsWayMeetsTheSolid) {
   expect_near(seen.velocity(), {0, 0, 0}, 1e-9);
 }
 
+// A chord each tenth of a radian, of one turn at most: 2 pi / 0.1 = 62.8, whatever a hand makes of its spin.
+TEST(NodeContact, TheWayOfASolidThatWhirlsHasTheChordsOfOneTurn) {
+  for (const auto& [turn, chords] :
+       std::vector<std::pair<double, int>>{{0, 1}, {0.25, 3}, {6.15, 62}, {2046, 63}, {1e12, 63}}) {
+    Solid whirling = ball();
+    whirling.turn = {0, turn, 0};
+    OneNode node(whirling, {2, 0, 0}, {1 / kNodeStep, 0, 0});
+    node.resolve();
+    EXPECT_EQ(node.solid().chords(), chords) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace weft::test
