@@ -87,13 +87,24 @@ class Recipes:
             self.assertGreaterEqual(since, time - 1e-9)
 
 
+    def test_save_what_came(self):
+        self.run_recipe("Save what came")
+        kinds = [line.split(" ")[0] for line in (self.folder / "flag.obj").read_text().splitlines()]
+        # flag.json: one cloth; who tells no camera sees it at its finest level, 6: 65 x 65 nodes, 64 x 64 faces.
+        self.assertEqual([kinds.count(kind) for kind in "ovf"], [1, 65 * 65, 64 * 64])
+        data = (self.folder / "flag.glb").read_bytes()
+        self.assertEqual((data[:4], int.from_bytes(data[8:12], "little")), (b"glTF", len(data)))
+        document = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+        self.assertEqual(sum(1 + len(mesh.get("weights", [])) for mesh in document["meshes"]), 60)  # a shape a frame
+
+
 class Python(Recipes, unittest.TestCase):
     language, package, suffix, command = "python", "python", "py", ["/usr/bin/python3"]
     environment = {**os.environ, "PYTHONPATH": str(CLIENTS / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def test_all_are_tested(self):
-        self.assertEqual(set(recipes("python")), {"", "Follow a camera", "Throw balls", "Drive wind from data", "Batch runs",
-                                                  "Record a data set", "A cape on a walking figure"})
+        self.assertEqual(set(recipes("python")), {"", "Follow a camera", "Throw balls", "Drive wind from data", "Save what came",
+                                                  "Batch runs", "Record a data set", "A cape on a walking figure"})
 
     def test_asyncio(self):
         (step, *shape), = self.run_recipe("")
@@ -119,10 +130,14 @@ class Python(Recipes, unittest.TestCase):
     def test_record_a_data_set(self):
         self.run_recipe("Record a data set")
         with np.load(self.folder / "flag.npz") as data:
-            positions, time = data["positions"], data["time"]
+            positions, velocities, time, wind, balls = (data[name] for name in ("positions", "velocities", "time", "wind", "balls"))
         self.assertEqual((positions.shape, positions.dtype), ((120, 33, 33, 3), np.float32))
         np.testing.assert_allclose(np.diff(time), 1 / 60, atol=1e-9)  # every step once
         self.assertTrue(np.isfinite(positions).all())
+        central = (positions[2:].astype(float) - positions[:-2]) / (2 / 60)  # of frames at equal distances
+        np.testing.assert_allclose(velocities[1:-1], central, atol=1e-5)
+        np.testing.assert_array_equal(wind, np.broadcast_to([6, 0, 0], (120, 3)))
+        self.assertEqual(balls.shape, (120, 0, 4))  # the flag has none
 
 
 class JavaScript(Recipes, unittest.TestCase):
@@ -136,7 +151,7 @@ class JavaScript(Recipes, unittest.TestCase):
         (modules / "ws").symlink_to(ROOT / "tests" / "node_modules" / "ws")
 
     def test_all_are_tested(self):
-        self.assertEqual(set(recipes("js")), {"Follow a camera", "Throw balls", "Drive wind from data"})
+        self.assertEqual(set(recipes("js")), {"Follow a camera", "Throw balls", "Drive wind from data", "Save what came"})
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import pathlib
 import struct
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -461,6 +462,31 @@ class Client(unittest.IsolatedAsyncioTestCase):
         with self.assertRaises(weft.WeftError) as caught:
             await weft.connect(server.url)
         self.assertEqual(caught.exception.code, "connect")
+
+
+class DataSet(unittest.TestCase):
+    def frame(self, f, time, height, balls=()):
+        cloth = weft.Cloth(0, 1, 1, 0.0, np.full((2, 2, 3), height, np.float32))
+        return weft.Frame(weft.Stamp(f, 0, time, 0, False, False), [cloth], list(balls), [])
+
+    def test_velocities_and_balls_that_come(self):
+        ball = weft.Ball(7, (1.0, 2.0, 3.0), 0.5, "dynamic")
+        # s = t^2 at 1, 1.5, 3 s: differences of second order give 2 t inside, those of first order the slope at the ends.
+        frames = [self.frame(0, 1.0, 1.0), self.frame(1, 1.5, 2.25), self.frame(2, 3.0, 9.0, [ball])]
+        with tempfile.TemporaryDirectory() as folder:
+            weft.write_npz(pathlib.Path(folder) / "set.npz", frames, wind=[[1, 0, 0], [2, 0, 0], [3, 0, 0]])
+            with np.load(pathlib.Path(folder) / "set.npz") as data:
+                np.testing.assert_allclose(data["velocities"][:, 0, 0, 1], [2.5, 3.0, 4.5], rtol=1e-6)
+                np.testing.assert_array_equal(data["time"], [1, 1.5, 3])
+                np.testing.assert_array_equal(data["wind"][:, 0], [1, 2, 3])
+                np.testing.assert_array_equal(data["balls"], [[[np.nan] * 4]] * 2 + [[[1, 2, 3, 0.5]]])
+
+    def test_what_makes_no_data_set_is_refused(self):
+        one, two = self.frame(0, 0.0, 0), self.frame(1, 1.0, 1)
+        for frames, wind, cloth, told in [([one], [0, 0, 0], 0, "2 or more"), ([one, two], [0, 0], 0, "wind has the shape"),
+                                          ([one, two], [0, 0, 0], 4, "cloth 4 is in 0 of 2 frames"), ([two, one], [0, 0, 0], 0, "after 1 s")]:
+            with self.assertRaisesRegex(ValueError, told):
+                weft.write_npz("unwritten.npz", frames, wind, cloth)
 
 
 if __name__ == "__main__":

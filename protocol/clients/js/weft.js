@@ -11,6 +11,7 @@
 export { connect, WeftClient } from './client.js';
 export { Commands } from './commands.js';
 export { WeftError } from './errors.js';
+export { glbBytes, objText } from './export.js';
 export { decodeFrame } from './frames.js';
 export { messageText } from './messages.js';
 export { backoff, bearer, SUBPROTOCOL } from './transport.js';

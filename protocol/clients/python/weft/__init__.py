@@ -13,6 +13,7 @@ For asyncio the same with `async with await weft.connect(...)`, `await` before e
 """
 from .client import Client, connect
 from .errors import WeftError
+from .export import write_glb, write_npz, write_obj
 from .frames import decode_frame
 from .messages import message_text
 from .sync import Scene, open
@@ -20,4 +21,5 @@ from .transport import MAX_MESSAGE_BYTES, SUBPROTOCOL, backoff
 from .types import Ball, Cloth, Frame, Message, MovedObstacle, Stamp, Turn, Vector
 
 __all__ = ["Ball", "Client", "Cloth", "Frame", "MAX_MESSAGE_BYTES", "Message", "MovedObstacle", "SUBPROTOCOL", "Scene", "Stamp",
-           "Turn", "Vector", "WeftError", "backoff", "connect", "decode_frame", "message_text", "open"]
+           "Turn", "Vector", "WeftError", "backoff", "connect", "decode_frame", "message_text", "open",
+           "write_glb", "write_npz", "write_obj"]
