@@ -6,6 +6,7 @@
 
 #include "cloth/contact/recovery/untangling.h"
 #include "cloth/kernels/node_vector.h"
+#include "cloth/world/cloth.h"
 
 namespace weft {
 namespace {

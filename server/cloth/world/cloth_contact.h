@@ -1,13 +1,16 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "cloth/contact/constraints/layer_contacts.h"
 #include "cloth/contact/recovery/collision_net.h"
 #include "cloth/core/disjoint_sets.h"
 #include "cloth/core/effect_description.h"
-#include "cloth/world/cloth.h"
 
 namespace weft {
+
+template <class Real>
+class Cloth;
 
 /// Contact of a scene's cloths with themselves and with one another (ClothContactEffect), around their steps.
 ///

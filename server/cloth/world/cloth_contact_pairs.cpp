@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "cloth/world/cloth.h"
 #include "cloth/world/cloth_contact.h"
 
 namespace weft {

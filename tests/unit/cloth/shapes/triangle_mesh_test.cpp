@@ -79,7 +79,7 @@ class Points {
   std::uniform_real_distribution<double> place_;
 };
 
-TEST(TriangleMesh, DistancesAreFclsAndSidesThoseOfRays) {
+TEST(TriangleMesh, DistancesAreFclsAndSidesThoseOfRaysSlow) {
   const TriangleList list = knobbly_torus();
   const TriangleMesh mesh(list);
   const Oracle oracle(list);
@@ -117,7 +117,7 @@ TEST(TriangleMesh, PointsFarFromTheSurfaceHaveADistanceToo) {
   }
 }
 
-TEST(TriangleMesh, SidesBesideEdgesAndCorners) {
+TEST(TriangleMesh, SidesBesideEdgesAndCornersSlow) {
   // Straight out of each vertex and edge of a lumpy torus, and in: the face normals there disagree on the
   // side.
   const TriangleList list = knobbly_torus();
@@ -131,7 +131,7 @@ TEST(TriangleMesh, SidesBesideEdgesAndCorners) {
 }
 
 // Its cells hold triangles of both sides, which face away from each other.
-TEST(TriangleMesh, SidesOfAThinLensKnownToBeConvex) {
+TEST(TriangleMesh, SidesOfAThinLensKnownToBeConvexSlow) {
   TriangleList lens = sphere_mesh(1, 20, 40);
   for (Vec3& v : lens.vertices) v.y() *= 0.03;
   const Oracle oracle(lens);

@@ -55,7 +55,7 @@ Eigen::MatrixXd matrix_of(const Plate<double>& plate) {
   return k;
 }
 
-TEST(Plate, ForceIsMinusTheStencilsMatrixTimesThePositions) {
+TEST(Plate, ForceIsMinusTheStencilsMatrixTimesThePositionsSlow) {
   // Sums of 13 terms; stiffnesses up to 2e-3 N m * hy / hx^3.
   for (const auto& [rows, cols] : kGrids) {
     for (const bool held : {false, true}) {

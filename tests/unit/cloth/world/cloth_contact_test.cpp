@@ -2,6 +2,7 @@
 #include "cloth/world/cloth_contact.h"
 
 #include "cloth/sheet/diagnostics.h"
+#include "cloth/world/cloth.h"
 #include "fixtures.h"
 
 namespace weft::test {
