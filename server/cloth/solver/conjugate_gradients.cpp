@@ -62,7 +62,8 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
       report.decrease += found * found / curvature / 2;
     }
   }
-  // Rounding may make of the cycle what is not positive definite: then, for the rest of the solve, without it.
+  // Rounding may make of the cycle what is not positive definite: then, for the rest of the solve, without
+  // it.
   bool cycles = true;
   const auto precondition = [&](kernels::Components<Real> z) {
     if (cycles) {
