@@ -50,6 +50,6 @@ test('a reset brings all back', async () => {
 test('another scene has its own', async () => {
   await page.selectOption('#scene', 'flag');
   await until(page, () => weft.stats.scene === 'flag');
-  assert.deepEqual(await checked(page), {gravity: true, damping: true, aerodynamics: true});
+  assert.deepEqual(await checked(page), {gravity: true, damping: true, aerodynamics: true, plate_bending: true});
   assert.equal((await stats(page)).effectsOff.length, 0);
 });

@@ -144,7 +144,7 @@ test('a scene of one cloth has no choice, and without balls and obstacles no fri
   await until(page, () => weft.stats.scene === 'flag');
   assert.equal(await page.isVisible('#material-cloth'), false);
   assert.equal(await page.textContent('#material-name'), 'flag');
-  assert.deepEqual(Object.keys((await stats(page)).materials[0]).sort(), ['bending', 'damping', 'shear', 'structural', 'structural_weft']);
+  assert.deepEqual(Object.keys((await stats(page)).materials[0]).sort(), ['bending', 'damping', 'rigidity', 'shear', 'structural', 'structural_weft']);
   await until(page, () => weft.stats.balls.length === 0);
   assert.equal(await page.isVisible('#ball-friction-number'), false);
 });
