@@ -1,10 +1,10 @@
 #pragma once
 /// The state that viewers are shown, and its encodings: one a cloth, level, lattice and coding, whoever asks.
 #include <Eigen/Geometry>
-#include <compare>
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -46,7 +46,9 @@ class FrameEncoder {
     int level = 0;
     int exponent = 0;  ///< of the least quantum
     protocol::GridCoding coding = protocol::GridCoding::plain;
-    auto operator<=>(const Encoding&) const = default;
+    friend bool operator<(const Encoding& a, const Encoding& b) {
+      return std::tie(a.level, a.exponent, a.coding) < std::tie(b.level, b.exponent, b.coding);
+    }
   };
   struct ShownCloth {
     int level = 0;
