@@ -106,10 +106,9 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const double most = kMostChange * motion.inner, most_owed = kMostOwed * account.motion;
   double change = std::clamp(account.owed, -most, most);
   if (!wind) {
-    const double whole = motion_energy(particles, true).inner + springs;
     account.most += led_out_;
     account.most_whole += led_out_;
-    const double room = leans    ? account.most_whole - whole - height(particles, forces, lead_)
+    const double room = leans    ? account.most_whole - now - height(particles, forces, lead_)
                         : pinned ? account.most - now - height(particles, forces, 0)
                                  : account.most - now;
     change = std::min(change, room);

@@ -95,7 +95,7 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     }
     const bool cycled = cycles;
     const double next = precondition(q);
-    const double turned = cycled == cycles ? next / rz : 0;
+    const double turned = cycled == cycles ? next / rz : 0;  // directions of the cycle are none without it
     bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
       kernels::turn_towards<Real>(p + first, q + first, static_cast<Real>(turned), count);
     });
