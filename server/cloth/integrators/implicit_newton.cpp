@@ -104,8 +104,8 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     const bool fine = left > 1 || rough || s.motion.fine();
     const double allowed =
         fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
-    const bool known =
-        begun == 0 || left <= 1 - kFrictionIterations || begun <= kRoughFriction * kinetic_energy(particles);
+    const bool known = begun <= solved.target || left <= 1 - kFrictionIterations ||
+                       begun <= kRoughFriction * kinetic_energy(particles);
     const bool done = report.brought_in <= 0 && error <= allowed && known && changed.struck <= kStruck;
     const bool last = left <= 1 - (stray && rough ? kSpareSearches : kSpareIterations);
     if (!last && (!done || let_go(particles) || hold_inside(particles, forces.sheet->springs(), allowed)))
