@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cloth/core/clock.h"
+#include "cloth/integrators/fast_solids.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/motion.h"
 #include "cloth/sheet/tear/pieces.h"
@@ -43,14 +44,17 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
                                       std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = parameters_.substeps;
-  const double h = dt / parameters_.substeps;
+  if (contact != nullptr) {
+    report.substeps *= parts_beside_fast_solids(particles, *contact, solids, dt / parameters_.substeps, dt);
+  }
+  const double h = dt / report.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
   memory_->ledger.begin_step(particles, forces, state_->lead ? h / 2 : 0);
   ContactConstraints<Real>& contacts = memory_->contacts;
   bool touched = false;
-  for (int substep = 0; substep < parameters_.substeps; ++substep) {
-    const Substep part = Substep::of(substep, parameters_.substeps, dt);
+  for (int substep = 0; substep < report.substeps; ++substep) {
+    const Substep part = Substep::of(substep, report.substeps, dt);
     const auto begin = Clock::now();
     state_->motion.measure(particles);
     if (contact != nullptr) {

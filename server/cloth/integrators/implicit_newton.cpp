@@ -137,8 +137,9 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
   const std::vector<Solid> bent =
       bodies.empty() ? std::vector<Solid>{} : memory_->contacts.bent(*solids, bodies);
   const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
-  if (!memory_->contacts.hold_inside(contact->inside(particles, now, part), particles, now, s.move, bodies,
-                                     springs.node_stiffness(), missed))
+  if (!memory_->contacts.hold_inside(contact->inside(particles, now, part),
+                                     contact->passed(particles, s.start, now, part), particles, now, s.move,
+                                     bodies, springs.node_stiffness(), missed))
     return false;
   memory_->contacts.for_each_broken([&](std::size_t node) { break_motion(node); });
   begin_formula(s.h);

@@ -134,19 +134,18 @@ bool ContactConstraints<Real>::holds_already(const Touch& touch, const Vec3& nor
 }
 
 template <class Real>
-bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
-                                           const std::vector<Solid>& solids,
+bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside,
+                                           const std::vector<Arrival>& passed,
+                                           const Particles<Real>& particles, const std::vector<Solid>& solids,
                                            kernels::Components<const Real> move, AttachedBodies<Real>& bodies,
                                            double links_stiffness, double missed) {
   const kernels::Components<const Real> position = kernels::components(particles.position);
   std::vector<Constraint> more;
   double energy = 0;
-  for (const Touch& touch : inside) {
-    const Solid& solid = solid_of(touch, solids);
+  const auto hold = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
+    if (holds_already(touch, surface.normal)) return;
     const ClothPoint<Real> point(touch.point(), particles);
     const Vec3 place = point.of(position), way = point.moved_by(move);
-    const Surface surface = way_out_of(solid.placed(substep_.to), touch.point(), place, particles.position);
-    if (holds_already(touch, surface.normal)) continue;
     energy += links_stiffness * surface.distance * surface.distance / 2;
     Constraint made = held_by(touch, point, solid, surface, place - way, way);
     made.body = body_of(solid, solids, bodies);
@@ -157,6 +156,18 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside, con
       made.solid_move -= gone;
     }
     more.push_back(made);
+  };
+  for (const Arrival& arrival : passed) {
+    if (std::binary_search(not_held_.begin(), not_held_.end(), arrival.touch)) continue;
+    hold(arrival.touch, solids[arrival.solid], arrival.surface);
+  }
+  for (const Touch& touch : inside) {
+    const Solid& solid = solid_of(touch, solids);
+    const Vec3 place = ClothPoint<Real>(touch.point(), particles).of(position);
+    const bool came_through =
+        std::any_of(more.begin(), more.end(), [&](const Constraint& c) { return c.touch == touch; });
+    if (came_through) continue;
+    hold(touch, solid, way_out_of(solid.placed(substep_.to), touch.point(), place, particles.position));
   }
   if (energy <= missed) return false;
   constraints_.insert(constraints_.end(), more.begin(), more.end());

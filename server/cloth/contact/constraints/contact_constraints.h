@@ -38,8 +38,8 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// there, whatever pulls: it would enter the other solid and be projected out after each step.
 ///
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
-/// iteration has put into one from the next on: put there after the step they would stretch their springs at
-/// nobody's cost.
+/// iteration has put into one, or through a fast one, from the next on: put outside after the step they would
+/// stretch their springs at nobody's cost.
 ///
 /// A point between nodes (points_between) is held as a node is, by a spring that couples its nodes.
 ///
@@ -54,12 +54,13 @@ class ContactConstraints {
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
              bool near_rest, AttachedBodies<Real>& bodies);
-  /// Between Newton iterations: holds the nodes that are inside at `move` and not held yet, if it takes more
-  /// energy than `missed`, J, to push them out one by one against links of this stiffness at a node, N/m.
-  /// False if it holds no more than before.
-  bool hold_inside(const std::vector<Touch>& inside, const Particles<Real>& particles,
-                   const std::vector<Solid>& solids, kernels::Components<const Real> move,
-                   AttachedBodies<Real>& bodies, double links_stiffness, double missed);
+  /// Between Newton iterations: holds the nodes that are inside at `move`, or have passed a surface by it,
+  /// and are not held yet, if it takes more energy than `missed`, J, to push them out one by one against
+  /// links of this stiffness at a node, N/m. False if it holds no more than before.
+  bool hold_inside(const std::vector<Touch>& inside, const std::vector<Arrival>& passed,
+                   const Particles<Real>& particles, const std::vector<Solid>& solids,
+                   kernels::Components<const Real> move, AttachedBodies<Real>& bodies, double links_stiffness,
+                   double missed);
   /// The solids as they go by the system's solution so far.
   std::vector<Solid> bent(std::vector<Solid> solids, const AttachedBodies<Real>& bodies) const;
   /// Between Newton iterations: lets go of the nodes that lay on a solid when the substep began and at `move`

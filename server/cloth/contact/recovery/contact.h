@@ -114,6 +114,12 @@ class Contact {
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
       bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
 
+  /// The free nodes that have passed the surface of a solid that does not yield, wherever they are now, on
+  /// their ways from `start`, where they were as the substep began. Of slow ones none: those are inside().
+  /// Valid until the next call.
+  const std::vector<Arrival>& passed(const Particles<Real>& particles, const VectorField<Real>& start,
+                                     const std::vector<Solid>& solids, const Substep& substep);
+
   /// Before a step: the pinned nodes, and points between such, that a solid which yields may come to in it,
   /// going no farther than it does now, if no pin goes farther than `longest`, m; by point.
   std::vector<NearPoint> pinned_near(const Particles<Real>& particles, const std::vector<Solid>& solids,
@@ -142,17 +148,17 @@ class Contact {
   const BroadPhase<Real>& broad_phase() const { return broad_phase_; }
 
  private:
-  /// Calls visit(row, col) for every node in those rows of the tiles that struck(pair, block, first node)
-  /// finds for some solid: bit r for row r.
-  template <class Struck, class Visit>
-  void for_each_struck(const VectorField<Real>& position, const std::vector<TileSolidPair>& pairs,
-                       Struck struck, Visit visit);
-
   /// Adds to `found` the free nodes that are, at these positions, in a solid that is `sought`, as that is at
   /// the substep's end.
   void find_inside(const Particles<Real>& particles, const VectorField<Real>& position,
                    const std::vector<Solid>& solids, const Substep& substep, bool (*sought)(const Solid&),
                    std::vector<Touch>& found);
+
+  /// Fills arrivals_ with the free nodes that pass the surface of a solid sought(solid, the longest way, m)
+  /// on these ways from `position`.
+  template <class Ways, class Sought>
+  void find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position, const Ways& ways,
+                     const std::vector<Solid>& solids, const Substep& substep, Sought sought);
 
   /// Those between nodes that are near the last pairs' solids (points_between).
   std::vector<NearPoint> points_near(const Particles<Real>& particles, const VectorField<Real>& position,

@@ -103,6 +103,39 @@ TYPED_TEST(ContinuousContact, WhatSlidOffIsNotStopped) {
   EXPECT_GT(drawn_to(near, true).z(), 0);
 }
 
+TYPED_TEST(ContinuousContact, WhatWentThroughAFastSolidIsFoundWhereverItIs) {
+  // The ball goes 3.33 m along z. A node that began 0.5 m before its front has not moved: as seen from the
+  // ball where that ends up it came from 0.5 m before the front and is 2.83 m past it, through the ball. One
+  // 0.2 m beside the axis has not met it.
+  constexpr double kRadius = 0.1, kWay = 200 * kFrame;
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(3, 3, {20, 20});
+  const Vec3 met(0.06, 0, 0.08 + 0.5), beside(0.2, 0, 0.5);
+  set(sheet.position, 1, 1, met);
+  set(sheet.position, 0, 1, beside);
+  const VectorField<TypeParam> start = sheet.position;
+  const std::vector<Solid> solids{moving_ball(kRadius, {0, 0, 0}, {0, 0, 200})};
+  test::LooseContact<TypeParam> contact(sheet.grid());
+  const auto& passed = contact.passed(sheet, start, solids, {0, 1, kFrame});
+  ASSERT_EQ(passed.size(), 1U);
+  EXPECT_EQ(passed[0].touch, (Touch{sheet.grid().index(1, 1), solids[0].id}));
+  EXPECT_LT((passed[0].surface.normal - Vec3(0.6, 0, 0.8)).norm(), this->kRounding / kRadius);
+  // So deep below the tangent plane where it met the ball.
+  EXPECT_NEAR(passed[0].surface.distance, -0.8 * (kWay - 0.5), 40 * this->kRounding);
+  // Had it gone on with the ball it would not have met it.
+  set(sheet.position, 1, 1, Vec3(met + Vec3(0, 0, kWay)));
+  EXPECT_TRUE(contact.passed(sheet, start, solids, {0, 1, kFrame}).empty());
+}
+
+TYPED_TEST(ContinuousContact, OfSlowSolidsNothingIsFoundToHavePassed) {
+  // 0.04 m in the step, less than half of the radius: what is in it at the end tells.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(3, 3, {20, 20});
+  set(sheet.position, 1, 1, {0, 0, 0.11});
+  const std::vector<Solid> solids{moving_ball(0.1, {0, 0, 0}, {0, 0, 0.04 / kFrame})};
+  test::LooseContact<TypeParam> contact(sheet.grid());
+  EXPECT_TRUE(contact.passed(sheet, sheet.position, solids, {0, 1, kFrame}).empty());
+  EXPECT_EQ(contact.inside(sheet, solids, {0, 1, kFrame}).size(), 1U);
+}
+
 TYPED_TEST(ContinuousContact, FrictionTakesThemAlong) {
   // The coefficient is so large that friction takes all sliding: each node stays where the ball met it.
   constexpr double kRadius = 0.3;

@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "cloth/contact/recovery/contact.h"
+
+namespace weft {
+
+/// How many times as many substeps as usual an implicit step takes where cloth and a solid that does not
+/// yield pass each other by more than the solid's inner radius R in one: as many as it takes for them not to,
+/// at most kMostParts.
+///
+/// Where the solid's surface faces changes within R. In a substep that is longer a node is held to one
+/// tangent plane all along, and drawn as far as the solid goes, where it would have slid off; its links then
+/// hold energy that nobody put in. Round a wall nothing is drawn. Cloth that goes with the solid needs no
+/// more substeps: what counts is the solid's way beside the mean of the nodes'.
+///
+/// `h` is the substep, s, of a step of `dt`. Solids that the cloth neither touches nor meets in the step,
+/// going on as it goes, do not count.
+template <class Real>
+int parts_beside_fast_solids(const Particles<Real>& particles, Contact<Real>& contact,
+                             const std::vector<Solid>& solids, double h, double dt);
+
+extern template int parts_beside_fast_solids(const Particles<float>&, Contact<float>&,
+                                             const std::vector<Solid>&, double, double);
+extern template int parts_beside_fast_solids(const Particles<double>&, Contact<double>&,
+                                             const std::vector<Solid>&, double, double);
+
+}  // namespace weft
