@@ -119,13 +119,18 @@ double stiffness_of(const ClothDescription& cloth, const SimulationDescription& 
   return cloth.material.structural.most() * (limited ? cloth.material.limit.stiffening : 1);
 }
 
+/// Of air per area, N/m2: drag or lift at right angles to the wind.
+double pressure_of(const AerodynamicsEffect& air, double wind) {
+  return air.air_density * std::max(air.drag, air.lift_or_drag()) * wind * wind / 2;
+}
+
 /// Of gravity and winds on the whole cloth, N.
 double load_on(const ClothDescription& cloth, const SimulationDescription& scene) {
   const double area = cloth.size.x() * cloth.size.y(), wind = strongest_wind(scene.wind);
   double load = total_gravity(scene.effects).norm() * cloth.material.density * area;
   for (const EffectDescription& effect : scene.effects) {
     if (const auto* air = std::get_if<AerodynamicsEffect>(&effect)) {
-      load += air->air_density * std::max(air->drag, air->lift_or_drag()) * wind * wind / 2 * area;
+      load += pressure_of(*air, wind) * area;
     } else if (const auto* steady = std::get_if<PaperWindEffect>(&effect)) {
       const bool papers = cloth.discretization == Discretization::paper;
       load += steady->factor * wind * (papers ? cloth.base_cells.at(cloth.max_level).nodes() : area);
@@ -134,15 +139,18 @@ double load_on(const ClothDescription& cloth, const SimulationDescription& scene
   return load;
 }
 
-/// Whether a pressure is more than a sheet's springs can balance (inflation.h). In air that follows it, it
-/// then grows faster the larger it is, beyond all bounds within a finite time: the guard has to hold it.
+/// Whether a pressure, of air that follows the sheet or of wind, is more than its springs can balance
+/// (inflation.h). The sheet then grows faster the larger it is, beyond all bounds within a finite time: the
+/// guard has to hold it.
 bool bursts(const ClothDescription& cloth, const SimulationDescription& scene) {
-  double pressure = 0;
+  double inflated = 0, blown = 0;
   for (const EffectDescription& effect : scene.effects) {
     const auto* inflation = std::get_if<InflationEffect>(&effect);
-    if (inflation && !inflation->volume) pressure += inflation->pressure;
+    if (inflation && !inflation->volume) inflated += inflation->pressure;
+    if (const auto* air = std::get_if<AerodynamicsEffect>(&effect))
+      blown += pressure_of(*air, strongest_wind(scene.wind));
   }
-  return std::abs(pressure) * cloth.size.maxCoeff() > 2 * stiffness_of(cloth, scene);
+  return (std::abs(inflated) + blown) * cloth.size.maxCoeff() > 2 * stiffness_of(cloth, scene);
 }
 
 /// Whether a spring that bears all of the load, as at a pin, is drawn out beyond what the guard lets be.

@@ -54,8 +54,8 @@ template <class Real>
 MotionScale<Real>::MotionScale(const Springs<Real>& springs, const Field<Real>& mass, double h) : h_(h) {
   const double stiffest = springs.max_squared_frequency(mass) * h * h;
   const double size = extent(springs.families(), mass.grid());
-  digits_ = stiffest * double(std::numeric_limits<Real>::epsilon()) <= 1;
-  slow_ = (digits_ ? kSlow : kSlowStiff) * size;
+  const bool digits = stiffest * double(std::numeric_limits<Real>::epsilon()) <= 1;
+  slow_ = (digits ? kSlow : kSlowStiff) * size;
   near_rest_ = kNearRest * size;
 }
 

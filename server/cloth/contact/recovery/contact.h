@@ -154,11 +154,13 @@ class Contact {
                    const std::vector<Solid>& solids, const Substep& substep, bool (*sought)(const Solid&),
                    std::vector<Touch>& found);
 
-  /// Fills arrivals_ with the free nodes that pass the surface of a solid sought(solid, the longest way, m)
-  /// on these ways from `position`.
-  template <class Ways, class Sought>
-  void find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position, const Ways& ways,
-                     const std::vector<Solid>& solids, const Substep& substep, Sought sought);
+  /// Fills arrivals_ with the free nodes that pass the surface of a solid that is `sought` on their ways from
+  /// `position` to `ends`, the `longest` of them so long, m. `way_of(value)` is one's way, where value(field)
+  /// is what a field has there.
+  template <class Ends, class Way, class Sought>
+  void find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position, const Ends& ends,
+                     double longest, Way way_of, const std::vector<Solid>& solids, const Substep& substep,
+                     Sought sought);
 
   /// Those between nodes that are near the last pairs' solids (points_between).
   std::vector<NearPoint> points_near(const Particles<Real>& particles, const VectorField<Real>& position,

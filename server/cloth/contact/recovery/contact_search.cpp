@@ -1,6 +1,6 @@
 /// What a contact finds and leaves as it is: nodes in solids, on ways into them and near them.
 #include <algorithm>
-#include <functional>
+#include <cmath>
 #include <optional>
 
 #include "cloth/contact/recovery/contact.h"
@@ -79,10 +79,14 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
                                                    const std::vector<Solid>& solids, const Substep& substep,
                                                    bool (*sought)(const Solid&)) {
   arrivals_.clear();
-  if (std::any_of(solids.begin(), solids.end(), sought)) {
-    find_arrivals(particles, particles.position, Way<Real>::by(particles.velocity, substep.seconds), solids,
-                  substep, [&](const Solid& solid, double) { return sought(solid); });
-  }
+  if (std::none_of(solids.begin(), solids.end(), sought)) return arrivals_;
+  const double h = substep.seconds;
+  const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
+  const double longest =
+      h * std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
+  find_arrivals(
+      particles, particles.position, Way<Real>::by(particles.velocity, h), longest,
+      [&](const auto& value) { return Vec3(h * value(velocity)); }, solids, substep, sought);
   return arrivals_;
 }
 
@@ -91,28 +95,28 @@ const std::vector<Arrival>& Contact<Real>::passed(const Particles<Real>& particl
                                                   const VectorField<Real>& start,
                                                   const std::vector<Solid>& solids, const Substep& substep) {
   arrivals_.clear();
-  if (std::any_of(solids.begin(), solids.end(), stands_firm)) {
-    find_arrivals(particles, start, Way<Real>::to(particles.position), solids, substep,
-                  [&](const Solid& solid, double longest) {
-                    return stands_firm(solid) &&
-                           longest + sweep_of(solid, substep) > kSlowMove * inner_radius(solid.shape);
-                  });
-  }
+  if (std::none_of(solids.begin(), solids.end(), stands_firm)) return arrivals_;
+  const Way<Real> ends = Way<Real>::to(particles.position);
+  const double longest = ends.longest(start);
+  const auto is_fast = [&](const Solid& solid) {
+    return stands_firm(solid) && longest + sweep_of(solid, substep) > kSlowMove * inner_radius(solid.shape);
+  };
+  if (std::none_of(solids.begin(), solids.end(), is_fast)) return arrivals_;
+  const kernels::Components<const Real> from = kernels::components(start),
+                                        to = kernels::components(particles.position);
+  find_arrivals(
+      particles, start, ends, longest, [&](const auto& value) { return Vec3(value(to) - value(from)); },
+      solids, substep, is_fast);
   return arrivals_;
 }
 
 template <class Real>
-template <class Ways, class Sought>
+template <class Ends, class Way, class Sought>
 void Contact<Real>::find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position,
-                                  const Ways& ways, const std::vector<Solid>& solids, const Substep& substep,
-                                  Sought sought) {
-  const double reach = ways.longest(position);
-  std::vector<bool> wanted(solids.size());
-  std::transform(solids.begin(), solids.end(), wanted.begin(),
-                 [&](const Solid& solid) { return sought(solid, reach); });
-  if (std::none_of(wanted.begin(), wanted.end(), std::identity())) return;
+                                  const Ends& ends, double longest, Way way_of,
+                                  const std::vector<Solid>& solids, const Substep& substep, Sought sought) {
   const kernels::Components<const Real> nodes = kernels::components(position);
-  const Sweep sweep{substep.from, substep.to, reach};
+  const Sweep sweep{substep.from, substep.to, longest};
   const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(position, solids, sweep);
   const auto look = [&](const PointId& id, const Vec3& place, const Vec3& way, std::size_t i) {
     const Solid& solid = solids[i];
@@ -132,30 +136,28 @@ void Contact<Real>::find_arrivals(const Particles<Real>& particles, const Vector
   for_each_struck(
       position, broad_phase_.tiles(), pairs, counters_,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
-        const auto i = static_cast<std::size_t>(pair.solid);
-        if (!wanted[i]) return std::uint32_t{0};
-        const Solid& solid = solids[i];
+        const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
+        if (!sought(solid)) return std::uint32_t{0};
         const auto* sphere = std::get_if<Sphere>(&solid.shape);
-        if (sphere == nullptr) return rows_near_way(block, solid, substep, reach);
+        if (sphere == nullptr) return rows_near_way(block, solid, substep, longest);
         // The kernel looks at the way back: from where node and ball will be to where they are.
         const Vec3 place = solid.at(substep.from), back = place - solid.at(substep.to);
-        return kernels::rows_swept(block, {ways.other + first, ways.own, ways.factor},
+        return kernels::rows_swept(block, {ends.other + first, ends.own, ends.factor},
                                    {back.x(), back.y(), back.z()},
                                    {place.x(), place.y(), place.z(), sphere->radius * sphere->radius});
       },
       [&](int row, int col) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const std::size_t node = particles.grid().index(row, col);
-        const Vec3 place = at(nodes, node), way = -ways.move(place, node);
+        const Vec3 way = way_of([&](const kernels::Components<const Real>& c) { return at(c, node); });
         for (std::size_t i = 0; i < solids.size(); ++i) {
-          if (wanted[i]) look({node}, place, way, i);
+          if (sought(solids[i])) look({node}, at(nodes, node), way, i);
         }
       });
   for (const NearPoint& near : points_near(particles, position, pairs, solids, sweep)) {
-    if (!wanted[near.solid]) continue;
+    if (!sought(solids[near.solid])) continue;
     const ClothPoint<Real> point(near.point, particles);
-    Vec3 way(0, 0, 0);
-    point.for_each_node([&](std::size_t i, double weight) { way -= weight * ways.move(at(nodes, i), i); });
+    const Vec3 way = way_of([&](const kernels::Components<const Real>& c) { return point.of(c); });
     look(near.point, point.of(nodes), way, near.solid);
   }
 }
