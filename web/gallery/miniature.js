@@ -4,7 +4,7 @@ import {ClothView} from '../view/cloth_view.js';
 import {ObstaclesView} from '../view/obstacles_view.js';
 
 const kFill = 1.15;     // of the picture's height, for the ball around the cloths
-const kNearest = 0.35, kFarthest = 1.5;  // of the scene's own distance: what is around the cloth is part of the picture, too
+const kNearest = 0.6, kFarthest = 1.5;  // of the scene's own distance: what is around the cloth is part of the picture, too
 const kAstray = 0.4;    // of that ball's radius: farther the cloths do not go from the middle, the camera follows
 
 /** One scene in small: what stands in it at the newest frame. */
