@@ -6,6 +6,8 @@ foreach(file ${OWN_FILES})
   cmake_path(GET file PARENT_PATH folder)
   file(COPY ${SOURCE}/${file} DESTINATION ${PAGE}/${folder})
 endforeach()
+# The folder is the npm package of the element weft-view, too.
+file(COPY ${SOURCE}/element/package.json ${SOURCE}/element/README.md DESTINATION ${PAGE})
 file(COPY ${CLIENT_FILES} DESTINATION ${PAGE}/protocol)
 file(COPY ${THREE}/build/three.module.js ${THREE}/build/three.core.js ${THREE}/LICENSE DESTINATION ${PAGE}/three)
 file(COPY ${UPLOT}/dist/uPlot.esm.js ${UPLOT}/dist/uPlot.min.css ${UPLOT}/LICENSE DESTINATION ${PAGE}/uplot)
