@@ -74,8 +74,7 @@ export class ScenePage {
     this.here = false;
     this.wanted = null;
     this.retryAt = null;
-    this.video.stop();
-    this.motion.stop();
+    this.endRecordings();
     this.hud.showBanner(null);
     this.link.rest();
   }
@@ -168,9 +167,7 @@ export class ScenePage {
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.#connect();
       else if (this.wanted !== null) link.rest();
-      if (!document.hidden) return;
-      this.video.stop();  // nothing is drawn or received any more
-      this.motion.stop();
+      if (document.hidden) this.endRecordings();  // nothing is received or drawn any more
     });
     new ResizeObserver(() => this.stage.setInsets(...panel.covers())).observe(byId('controls'));
     for (const id of ['scenes', 'split']) {

@@ -102,6 +102,10 @@ export function equip(page) {
   });
   page.video = new Video(stage.renderer.domElement, (video, ending) => save(page, ending, video));
   page.motion = new Motion((frames) => save(page, 'glb', makeModel(show, frames)));
+  page.endRecordings = () => {
+    page.video.stop();
+    page.motion.stop();
+  };
   // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   page.clothHand = new ClothHand(stage, show, {
     grab: (cloth, u, v, position) => ask(commands.grab(cloth, u, v, {position})),
