@@ -8,6 +8,7 @@ import {Morph} from '../../web/view/morph.js';
 import {addressOfScene, readSettings} from '../../web/app/settings.js';
 import {ThrowSpeed} from '../../web/input/throw_speed.js';
 import {Ages, limitOf} from '../../web/app/pace.js';
+import {Motion} from '../../web/saving/motion.js';
 import {Timeline} from '../../web/view/timeline.js';
 import {Tuner, kTuneMs, sliderSpan, unitText} from '../../web/panels/tuning.js';
 import {anglesOf, directionOf} from '../../web/panels/wind_angles.js';
@@ -362,4 +363,33 @@ test('while something is dragged the newest is sent, ten times a second at most,
   const before = sent.length;
   for (let i = 0; i < 100; ++i) context.mock.timers.tick(10);
   assert.equal(sent.length, before);
+});
+
+test('a model that moves has thirty frames a second for ten seconds, or ends before: when told, at a reset, when it is large', () => {
+  const ended = [];
+  const motion = new Motion((frames) => ended.push(frames.map(({stamp}) => stamp.time)));
+  const at = (time, {epoch = 1, bytes = 12} = {}) => ({stamp: {time, epoch}, cloths: [{positions: {byteLength: bytes}}]});
+  motion.take(at(0));  // nobody asked
+  motion.start(at(5));
+  for (let step = 1; step <= 660; ++step) motion.take(at(5 + step / 60));
+  assert.equal(ended.length, 1);
+  assert.equal(ended[0].length, 301);  // 0 to 10 s, every second of 60 steps a second
+  near(ended[0].at(-1), 15);
+  assert.ok(!motion.gathering);
+
+  motion.start(at(1));
+  motion.take(at(1));  // paused: the same step again
+  motion.take(at(3));
+  near(motion.seconds, 2);
+  motion.stop();
+  assert.deepEqual(ended[1], [1, 3]);
+
+  motion.start(at(1));
+  motion.take(at(2));
+  motion.take(at(0, {epoch: 2}));
+  assert.deepEqual(ended[2], [1, 2]);
+
+  motion.start(at(0, {bytes: 20e6}));
+  for (let step = 1; step <= 9; ++step) motion.take(at(step, {bytes: 20e6}));
+  assert.deepEqual(ended[3], [0, 1, 2, 3]);  // the first that are more than 64 MB
 });

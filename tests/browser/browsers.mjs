@@ -17,7 +17,7 @@ const kChromium = {
 };
 
 /** `display` is an X server's: without one Firefox finds no WebGL driver, headless or not. */
-const firefox = (display) => ({
+export const firefox = (display) => ({
   channel: 'moz-firefox',
   executablePath: process.env.WEFT_FIREFOX ?? '/usr/bin/firefox-esr',
   headless: false,
@@ -36,7 +36,7 @@ const firefox = (display) => ({
 const driver = async () => import('playwright-core').then((all) => (kFirefox ? all.firefox : all.chromium));
 
 /** An X server that draws into memory, at a display number of its own choice. */
-async function startScreen() {
+export async function startScreen() {
   const screen = spawn('Xvfb', ['-displayfd', '3', '-screen', '0', '1280x1024x24', '-nolisten', 'tcp'],
     {stdio: ['ignore', 'ignore', 'ignore', 'pipe']});
   const failed = once(screen, 'exit').then(([code]) => {

@@ -93,7 +93,7 @@ test('the numbers of each cloth’s material unfold by the keyboard, with the ra
   const fields = await page.$$eval('#material input[type=number]', (inputs) =>
     inputs.map((input) => [input.labels[0].textContent, Number(input.value), Number(input.min), Number(input.max)]));
   assert.deepEqual(fields, [
-    ['Stiffness along the threads N/m', 100, 0, 1e9], ['Stiffness along v N/m', 100, 0, 1e9], ['Stiffness to shear N/m', 10, 0, 1e9], ['Stiffness to bending N/m', 0.01, 0, 1e9],
+    ['Stiffness along u N/m', 100, 0, 1e9], ['Stiffness along v N/m', 100, 0, 1e9], ['Stiffness to shear N/m', 10, 0, 1e9], ['Stiffness to bending N/m', 0.01, 0, 1e9],
     ['Damping', 0.3, 0, 1e6], ['Rigidity along u N m', 1e-5, 0, 1e4], ['Rigidity along v N m', 2e-5, 0, 1e4], ['Rigidity of the twist N m', 3e-5, 0, 1e4]]);
   assert.equal(await page.locator('#material').getByRole('slider', {name: /, slider$/}).count(), fields.length);
 });
@@ -101,12 +101,12 @@ test('the numbers of each cloth’s material unfold by the keyboard, with the ra
 test('a softer cloth hangs lower; the others stay as they are, and every viewer is told', async () => {
   await rest(kHung);
   const [, hung] = await page.evaluate(centre, kHung);
-  await type(number(page, 'Stiffness along the threads'), '20');
+  await type(number(page, 'Stiffness along u'), '20');
   await until(other, (index) => weft.stats.materials[index].structural === 20, kHung);
   assert.equal((await stats(other)).materials[kLying].structural, 500);
   await other.selectOption('#material-cloth', String(kHung));
   await other.getByRole('button', {name: 'Adjust the material'}).click();
-  assert.equal(await number(other, 'Stiffness along the threads').inputValue(), '20');
+  assert.equal(await number(other, 'Stiffness along u').inputValue(), '20');
   // Alone the threads' springs let the mean of 1 m of 0.1 kg/m2 sink by rho g H / (3 Y): 3.3 mm at 100 N/m, 16.4 mm at 20 N/m. The
   // diagonal springs, which stay at 10 N/m, bear less than half of the weight: it sinks by more than half of the difference.
   await until(page, ([index, before]) => weft.stats.cloths.find((each) => each.cloth === index).centre[1] < before - 0.0065, [kHung, hung]);

@@ -6,6 +6,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {before, test} from 'node:test';
 import {promisify} from 'node:util';
+import {validate} from '../protocol/gltf.mjs';
 import {kFirefox} from './browsers.mjs';
 import {hide, openScene, pause, startServer, stats, until} from './harness.mjs';
 
@@ -60,7 +61,7 @@ test('a video of what moves: begun and ended by the button, which tells how long
   assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3);  // EBML, of which WebM is made
   assert.ok(bytes.includes('webm'));
   assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
-  await page.waitForFunction(() => document.getElementById('record').textContent === 'Record');
+  await page.waitForFunction(() => document.getElementById('record').textContent === 'Video');
 });
 
 test('hidden, a recording ends, and is saved', async () => {
@@ -88,32 +89,40 @@ test('a picture as large as the canvas, of what is on it', async () => {
   assert.ok(colours > 100, `${colours} colours`);
 });
 
+/** A .glb's document and its buffer. */
+function opened(bytes) {
+  const jsonBytes = bytes.readUInt32LE(12);
+  return {gltf: JSON.parse(bytes.toString('utf8', 20, 20 + jsonBytes)), binary: bytes.subarray(28 + jsonBytes)};
+}
+/** The numbers of an accessor of floats. */
+function floats({gltf, binary}, index, each) {
+  const {bufferView, count} = gltf.accessors[index];
+  const {byteOffset} = gltf.bufferViews[bufferView];
+  return Array.from({length: each * count}, (_, i) => binary.readFloatLE(byteOffset + 4 * i));
+}
+
 test('a model of cloth and ball where they are, with the fabric', async () => {
   const {name, bytes} = await saved(() => page.click('#save-model'));
   assert.match(name, /^weft-zheng2020-ball-\d+\.\d\ds\.glb$/);
-  assert.equal(bytes.toString('latin1', 0, 4), 'glTF');
-  assert.equal(bytes.readUInt32LE(8), bytes.length);
-  const jsonBytes = bytes.readUInt32LE(12);
-  const gltf = JSON.parse(bytes.toString('utf8', 20, 20 + jsonBytes));
-  const binary = bytes.subarray(28 + jsonBytes);
+  await validate(new Uint8Array(bytes));
+  const {gltf, binary} = opened(bytes);
   const {cloths: [cloth], balls: [ball]} = await stats(page);
   const node = (wanted) => gltf.nodes.find((each) => each.name === wanted);
 
   const primitive = gltf.meshes[node(cloth.name).mesh].primitives[0];
-  const accessor = gltf.accessors[primitive.attributes.POSITION];
-  const at = gltf.bufferViews[accessor.bufferView].byteOffset + (accessor.byteOffset ?? 0);
-  const place = node(cloth.name).translation ?? [0, 0, 0];
-  const positions = Array.from({length: 3 * accessor.count}, (_, i) => binary.readFloatLE(at + 4 * i) + place[i % 3]);
-  assert.equal(accessor.count, cloth.rows * cloth.cols);
+  const place = node(cloth.name).translation;
+  const positions = floats({gltf, binary}, primitive.attributes.POSITION, 3).map((value, i) => value + place[i % 3]);
+  assert.equal(positions.length, 3 * cloth.rows * cloth.cols);
   const told = await page.evaluate(() => weft.positions());
   const worst = Math.max(...told.map((value, i) => Math.abs(value - positions[i])));
   assert.ok(worst < 1e-5, `a node is ${worst} m off`);
   assert.equal(gltf.accessors[primitive.indices].count, 6 * cloth.faces);
   assert.equal(gltf.images.length, 1);
 
-  const {translation = [0, 0, 0], scale} = node(`ball ${ball.ball}`);
+  const {translation, scale} = node(`ball-${ball.ball}`);
   translation.forEach((value, axis) => assert.ok(Math.abs(value - ball.position[axis]) < 1e-5, `ball at ${translation}, not at ${ball.position}`));
-  assert.ok(scale[0] > 0.89 * ball.radius && scale[0] <= ball.radius, `a ball of ${scale[0]} m`);  // drawn a little smaller: see BallsView
+  assert.deepEqual(scale, [ball.radius, ball.radius, ball.radius]);  // though it is drawn a little smaller: see BallsView
+  assert.equal(gltf.animations, undefined);
 });
 
 test('a cloth can start from the model', async () => {
@@ -132,6 +141,37 @@ test('a cloth can start from the model', async () => {
   const worst = Math.max(...told.map((value, i) => Math.abs(value - started[i])));
   assert.ok(worst < 1e-5, `a node is ${worst} m off`);
   await rm(folder, {recursive: true});
+});
+
+test('a model of what moves: its last frame is the last one that came', async () => {
+  await page.click('#pause');  // goes on
+  const text = () => document.getElementById('save-motion').textContent;
+  await until(page, () => !weft.stats.lastFrame.paused);
+  const begin = (await stats(page)).lastFrame.time;
+  await page.click('#save-motion');
+  await page.waitForFunction(() => document.getElementById('save-motion').textContent === 'Stop 0:02');
+  await pause(page);
+  const {time} = (await stats(page)).lastFrame;
+  const told = await page.evaluate(() => weft.positions());
+  const {name, bytes} = await saved(() => page.click('#save-motion'));
+  assert.match(name, /^weft-zheng2020-ball-\d+\.\d\ds\.glb$/);
+  assert.equal(await page.evaluate(text), 'Motion');
+  await validate(new Uint8Array(bytes));
+  const {gltf, binary} = opened(bytes);
+  const [{channels, samplers}] = gltf.animations;
+  const times = Math.max(...samplers.map(({input}) => gltf.accessors[input].max[0]));
+  assert.ok(times >= 2 && times <= time - begin, `${times} s, of ${begin} s to ${time} s`);
+  const ways = new Set(channels.map(({target}) => `${gltf.nodes[target.node].name.replace(/-frame.*/, '')} ${target.path}`));
+  const {cloths: [cloth], balls: [ball]} = await stats(page);
+  assert.ok(ways.has(`${cloth.name} weights`) && ways.has(`ball-${ball.ball} translation`), [...ways].join());
+
+  // The cloth's last mesh at its last target: frames are 1/30 s apart, the scene's own step, and none is left out.
+  const mesh = gltf.meshes[gltf.nodes.findLast(({name: each}) => each.startsWith(cloth.name)).mesh];
+  const [{attributes, targets}] = mesh.primitives;
+  const first = floats({gltf, binary}, attributes.POSITION, 3), last = floats({gltf, binary}, targets.at(-1).POSITION, 3);
+  const worst = Math.max(...told.map((value, i) => Math.abs(value - first[i] - last[i])));
+  assert.ok(worst < 1e-5, `a node is ${worst} m off`);
+  assert.equal(gltf.images.length, 1);
 });
 
 test('nothing was loaded from elsewhere, and the console is clean', () => {

@@ -3,7 +3,10 @@
 import {mkdir} from 'node:fs/promises';
 import {join} from 'node:path';
 import {test} from 'node:test';
+import {setTimeout as sleep} from 'node:timers/promises';
 import {fileURLToPath} from 'node:url';
+import WebSocket from 'ws';
+import {connect} from '../../protocol/clients/js/weft.js';
 import {openPage, startServer, until} from './harness.mjs';
 
 const folder = process.env.WEFT_SCREENSHOTS;
@@ -14,8 +17,30 @@ const kGallery = {
   'zheng2020-wind': [8, 2], 'zheng2020-distance': [5, 2.4], 'zheng2020-ball': [9, 1.9],
 };
 const kBrief = 2;  // s; what happens before is over by the time a page is drawn, and is reached step by step
+/** What the moving picture of the gallery shows: as many as stream at once. */
+const kMoving = ['flag', 'curtain', 'walker', 'trampoline'];
+const kPictures = 60, kPictureSeconds = 0.1;  // of the scenes' time
 const kNothingBeside = {content: '.panel, #wind-arrow, #loupe, #banner { display: none !important }'};
 const kWindow = {viewport: {width: 1280, height: 800}, deviceScaleFactor: 1};
+
+/** The gallery as it moves, a picture every kPictureSeconds: the scenes wait for it, as drawing without a graphics card is slow. */
+async function moving() {
+  const server = await startServer(kMoving);
+  const scenes = await Promise.all(kMoving.map((name) => connect(`ws://127.0.0.1:${server.port}/v1/scenes/${name}`, {WebSocket})));
+  await Promise.all(scenes.map((scene) => scene.pause()));
+  const {page} = await openPage(server.address, {viewport: {width: 1280, height: 380}, deviceScaleFactor: 1, reducedMotion: 'no-preference'});
+  await page.waitForFunction((count) => document.querySelectorAll('.card[data-frames]').length === count, kMoving.length);
+  for (let i = 0; i < kPictures; ++i) {
+    const shown = await page.$$eval('.card', (cards) => cards.map(({dataset}) => dataset.frames));
+    await Promise.all(scenes.map((scene) => scene.step(Math.round(kPictureSeconds / scene.scene.dt))));
+    await page.waitForFunction((before) => [...document.querySelectorAll('.card')].every(({dataset}, at) => dataset.frames !== before[at]), shown);
+    await sleep(150);  // the last of the frames that were on their way
+    await page.screenshot({path: join(folder, `moving-${String(i).padStart(2, '0')}.png`)});
+  }
+  await page.close();
+  for (const scene of scenes) scene.close();
+  await server.stop();
+}
 
 test('screenshots', {timeout: 900_000}, async () => {
   await mkdir(folder, {recursive: true});
@@ -103,6 +128,8 @@ test('screenshots', {timeout: 900_000}, async () => {
     }
     await preset.close();
   }
+
+  await moving();
 
   // A finger's width for each button, and the cloth above the folded panel.
   const phone = await open('flag', {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true});

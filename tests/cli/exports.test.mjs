@@ -5,12 +5,8 @@ import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import validator from 'gltf-validator';
-import {AnimationMixer, LoopOnce, Vector3} from 'three';
-import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {USDLoader} from 'three/addons/loaders/USDLoader.js';
-
-globalThis.self ??= globalThis;  // GLTFLoader's name for it
+import {load, positionsOf, seenAt} from '../protocol/gltf.mjs';
 
 let folder;
 before(() => {folder = mkdtempSync(join(tmpdir(), 'weft-exports-'));});
@@ -36,44 +32,16 @@ function near(found, expected, tolerance, what) {
   assert.ok(worst <= tolerance, `${what}: off by ${worst}`);
 }
 
-async function validated(name) {
-  const {issues} = await validator.validateBytes(new Uint8Array(readFileSync(path(name))));
-  assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify(issues.messages.slice(0, 5)));
-  const bytes = readFileSync(path(name));
-  return new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
-}
-
-/** The nodes of cloths that are seen, as three.js has them at that time. */
-function seenAt(gltf, time, named) {
-  const mixer = new AnimationMixer(gltf.scene);
-  for (const clip of gltf.animations) {
-    const action = mixer.clipAction(clip).setLoop(LoopOnce);
-    action.clampWhenFinished = true;
-    action.play();
-  }
-  mixer.setTime(time);
-  gltf.scene.updateMatrixWorld(true);
-  const seen = [];
-  gltf.scene.traverse((node) => {if (node.isMesh && node.name.startsWith(named) && node.scale.x > 0) seen.push(node);});
-  return seen;
-}
-
-/** A mesh as it is morphed now, in the world. */
-function positionsOf(mesh) {
-  const at = new Vector3(), all = [];
-  for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
-    mesh.getVertexPosition(i, at).applyMatrix4(mesh.matrixWorld);
-    all.push(at.x, at.y, at.z);
-  }
-  return all;
-}
+const validated = (name) => load(new Uint8Array(readFileSync(path(name))));
+/** The meshes seen at that time whose names begin so. */
+const named = (gltf, time, name) => seenAt(gltf, time).filter((mesh) => mesh.name.startsWith(name));
 
 test('a .glb of any length has each frame, one stretch of it seen at a time', async () => {
   run('zheng2020-ball', 150, 3, ['long.glb', 'long.csv'], '--set', '/cloths/0/levels={"min": 3, "max": 3}');
   const frames = framesOf('long.csv');
   const gltf = await validated('long.glb');
   for (const frame of [0, 1, 59, 61, 90, 119, 121, 149]) {
-    const seen = seenAt(gltf, frames[frame].time, 'cloth');
+    const seen = named(gltf, frames[frame].time, 'cloth');
     assert.equal(seen.length, 1, `frame ${frame}`);
     near(positionsOf(seen[0]), frames[frame].positions, 1e-4, `frame ${frame}`);
   }
@@ -83,7 +51,7 @@ test('a torn cloth is torn in a .glb', async () => {
   run('paper-screen', 120, 5, ['torn.glb', 'torn.usda', 'torn.csv']);
   const gltf = await validated('torn.glb');
   const frames = framesOf('torn.csv');
-  const triangles = (time) => seenAt(gltf, time, 'paper')[0].geometry.index.count / 3;
+  const triangles = (time) => named(gltf, time, 'paper')[0].geometry.index.count / 3;
   assert.equal(triangles(0), 2 * 32 * 32);
   assert.ok(triangles(frames[120].time) < 2 * 32 * 32);
   // As many faces as in the last of the .usda's samples, of 4 corners each.
@@ -126,7 +94,7 @@ test('a .usda has each frame; three.js reads its meshes and how bodies move', as
   const way = group.animations[0].tracks.find((track) => track.name === 'ball_1.position');
   const gltf = await validated('sheet.glb');
   for (const frame of [0, 10, 30]) {
-    const [ball] = seenAt(gltf, frames[frame].time, 'ball-1');
+    const [ball] = named(gltf, frames[frame].time, 'ball-1');
     near([...way.createInterpolant().evaluate(frames[frame].time)], ball.position.toArray(), 1e-5, `frame ${frame}`);
   }
 });

@@ -14,6 +14,7 @@ export const handlersFor = (page) => {
     welcome: ({role}) => (page.mayControl = role !== 'view'),
     scene: (message) => {
       page.letGo();
+      page.motion.stop();  // of the scene before
       show.begin(message);
       page.arrive(message);
       panel.setScenes(page.scenes, message.name);

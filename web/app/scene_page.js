@@ -74,7 +74,7 @@ export class ScenePage {
     this.here = false;
     this.wanted = null;
     this.retryAt = null;
-    this.video.stop();
+    this.endRecordings();
     this.hud.showBanner(null);
     this.link.rest();
   }
@@ -160,13 +160,14 @@ export class ScenePage {
       this.counts.bytes += detail.bytes;
       this.latest.frame = detail;
       this.show.push(detail.frame, detail.arrivedMs);
+      this.motion.take(detail.frame);
     });
     this.hud.onRetry(() => this.here && link.retry());
     addEventListener('online', () => this.here && link.retry());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.#connect();
       else if (this.wanted !== null) link.rest();
-      if (document.hidden) this.video.stop();  // nothing is drawn any more
+      if (document.hidden) this.endRecordings();  // nothing is received or drawn any more
     });
     new ResizeObserver(() => this.stage.setInsets(...panel.covers())).observe(byId('controls'));
     for (const id of ['scenes', 'split']) {
@@ -251,7 +252,7 @@ export class ScenePage {
     this.#showWaiting(nowMs);
     this.#showRates(nowMs);
     this.keep.setSaving(levels.length > 0, this.video.possible);
-    this.keep.showRecording(this.video.recording ? this.video.seconds : null);
+    this.keep.showRecording(this.video.recording ? this.video.seconds : null, this.motion.gathering ? this.motion.seconds : null);
     if (!stage.changed && !this.video.recording) return;  // a video has pictures of what stands still, too
     counts.drawn += 1;
     this.#noteAge();

@@ -9,6 +9,7 @@ import {Panel} from '../panels/panel.js';
 import {ZonesPanel} from '../panels/zones_panel.js';
 import {download, fileName} from '../saving/download.js';
 import {makeModel} from '../saving/model.js';
+import {Motion} from '../saving/motion.js';
 import {takePicture} from '../saving/picture.js';
 import {Video} from '../saving/video.js';
 
@@ -96,9 +97,15 @@ export function equip(page) {
     setWind: page.actions.setWind,
     picture: () => save(page, 'png', takePicture(stage)),
     record: () => (page.video.recording ? page.video.stop() : page.video.start()),
-    model: () => save(page, 'glb', makeModel(show)),
+    model: () => save(page, 'glb', makeModel(show, [show.timeline.newest])),
+    motion: () => (page.motion.gathering ? page.motion.stop() : page.motion.start(show.timeline.newest)),
   });
   page.video = new Video(stage.renderer.domElement, (video, ending) => save(page, ending, video));
+  page.motion = new Motion((frames) => save(page, 'glb', makeModel(show, frames)));
+  page.endRecordings = () => {
+    page.video.stop();
+    page.motion.stop();
+  };
   // Before the bodies' hand: it takes what Shift and the tool make its own, and leaves the rest.
   page.clothHand = new ClothHand(stage, show, {
     grab: (cloth, u, v, position) => ask(commands.grab(cloth, u, v, {position})),

@@ -1,9 +1,10 @@
-import {Group, Vector3} from '../three/three.module.js';
+import {Box3, Group, Vector3} from '../three/three.module.js';
 import {BallsView} from '../view/balls_view.js';
 import {ClothView} from '../view/cloth_view.js';
 import {ObstaclesView} from '../view/obstacles_view.js';
 
-const kFill = 1.15;     // of the picture's height, for the ball around the cloths
+const kFill = 1.15;     // of the picture's height, for the ball around the cloths and what they hang on
+const kCompany = 2;     // times the cloths' extent: what is larger is where they are, not what they are on
 const kNearest = 0.35, kFarthest = 1.5;  // of the scene's own distance: what is around the cloth is part of the picture, too
 const kAstray = 0.4;    // of that ball's radius: farther the cloths do not go from the middle, the camera follows
 
@@ -92,24 +93,26 @@ export class Miniature {
     this.framed.middle.add(off);
   }
 
-  /** The ball around all cloths, the longest side of one, and where the ground is below them. */
+  /** What stands with cloths of that extent, m: the figure that wears one, the table under one. */
+  #company(cloths) {
+    const solids = this.obstacles.meshes.filter((mesh) => mesh && mesh.userData.home.shape !== 'plane').map((mesh) => new Box3().setFromObject(mesh));
+    return solids.filter((box) => !box.isEmpty() && box.min.distanceTo(box.max) <= kCompany * cloths);
+  }
+
+  /** The ball around all cloths and the solids with them, the longest side of a cloth, and where the ground is below them. */
   #measure(cloths) {
-    const low = new Vector3(Infinity, Infinity, Infinity), high = new Vector3(-Infinity, -Infinity, -Infinity);
-    const place = new Vector3();
+    const box = new Box3(), place = new Vector3();
     for (const {record} of cloths) {
       for (let at = 0; at < record.positions.length; at += 3) {
-        place.fromArray(record.positions, at).add({x: record.origin[0], y: record.origin[1], z: record.origin[2]});
-        low.min(place);
-        high.max(place);
+        box.expandByPoint(place.fromArray(record.positions, at).add({x: record.origin[0], y: record.origin[1], z: record.origin[2]}));
       }
     }
+    for (const solid of this.#company(box.min.distanceTo(box.max))) box.union(solid);
     const extent = Math.max(...cloths.flatMap(({size}) => size));
-    const lowest = Math.min(low.y, ...this.balls.ids.map((id) => this.balls.ball(id)).map(({position, radius}) => position[1] - radius));
+    const lowest = Math.min(box.min.y, ...this.balls.ids.map((id) => this.balls.ball(id)).map(({position, radius}) => position[1] - radius));
     const middle = new Vector3();  // of the cloths' own centres, where these were
     for (const {centre} of cloths) middle.add(new Vector3().fromArray(centre));
     middle.divideScalar(cloths.length);
-    return {
-      middle, centre: low.clone().add(high).multiplyScalar(0.5), radius: low.distanceTo(high) / 2, extent, ground: lowest - 0.25 * extent,
-    };
+    return {middle, centre: box.getCenter(new Vector3()), radius: box.min.distanceTo(box.max) / 2, extent, ground: lowest - 0.25 * extent};
   }
 }

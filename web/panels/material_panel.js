@@ -4,7 +4,7 @@ import {Tunings, words} from './tunings.js';
 const byId = (id) => document.getElementById(id);
 /** What a material's numbers are called here, in the order in which they are shown; those of later servers follow by their own names. */
 const kLabels = {
-  structural: ['Stiffness along the threads'], structural_weft: ['Stiffness along v'], shear: ['Stiffness to shear'], bending: ['Stiffness to bending'], damping: ['Damping'],
+  structural: ['Stiffness along u'], structural_weft: ['Stiffness along v'], shear: ['Stiffness to shear'], bending: ['Stiffness to bending'], damping: ['Damping'],
   rigidity: ['Rigidity along u', 'Rigidity along v', 'Rigidity of the twist'],
   limit_warp: ['Limit along u'], limit_weft: ['Limit along v'], limit_shear: ['Limit to shear'], stiffening: ['Stiffening'],
 };

@@ -155,7 +155,7 @@ export class SplitPage {
       pane.facts.time.textContent = `${newest.stamp.time.toFixed(2)} s`;
       if (pane === finest) continue;
       const both = finest.history.newestWith(pane.history, pane.dt / 2);
-      pane.facts.apart.textContent = both ? apartText(...both) : 'not at the same time: reset';
+      pane.facts.apart.textContent = both ? apartText(...both) : 'after Reset all';
     }
   }
 

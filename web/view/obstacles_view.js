@@ -18,6 +18,8 @@ export class ObstaclesView {
     this.bodies = {plain: material(kBodyColour, 0), chosen: material(kBodyColour, kChosenGlow)};
     /** @type {(Mesh|null)[]} in the scene's order */
     this.meshes = [];
+    /** Those that have come, by obstacle. @type {Map<number, import('../protocol/weft.js').Surface>} */
+    this.surfaces = new Map();
   }
 
   /** @param {import('../protocol/weft.js').Obstacle[]} obstacles */
@@ -29,7 +31,9 @@ export class ObstaclesView {
   }
 
   /** Gives an obstacle, by its place in the scene, its surface. */
-  setSurface(index, {vertices, triangles}) {
+  setSurface(index, surface) {
+    const {vertices, triangles} = surface;
+    this.surfaces.set(index, surface);
     const {geometry} = this.meshes[index];
     const {positions, normals} = creased(vertices, triangles, {inset: kGap});
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
@@ -79,6 +83,7 @@ export class ObstaclesView {
       mesh.geometry.dispose();
     }
     this.meshes = [];
+    this.surfaces.clear();
   }
 
   #mesh(obstacle, index) {

@@ -78,9 +78,10 @@ export class Stage {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     const {right, bottom} = this.insets;
-    // Enough of the scene is in sight however narrow the window.
-    const narrow = Math.max(1, kRoomyAspect / ((clientWidth - right) / (clientHeight - bottom)));
-    this.camera.fov = (2 * Math.atan(narrow * Math.tan(this.halfView)) * 180) / Math.PI;
+    // Enough of the scene is in sight however narrow what the panels leave of the window.
+    const free = clientHeight - bottom;
+    const narrow = Math.max(1, kRoomyAspect / ((clientWidth - right) / free));
+    this.camera.fov = (2 * Math.atan(narrow * (clientHeight / free) * Math.tan(this.halfView)) * 180) / Math.PI;
     this.camera.setViewOffset(clientWidth, clientHeight, right / 2, bottom / 2, clientWidth, clientHeight);
     this.changed = true;
   }

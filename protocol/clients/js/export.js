@@ -1,10 +1,20 @@
-/** Received frames as files: Wavefront .obj, animated .glb (glTF 2.0). Cloths alone are drawn; lengths in m, y up. */
+/** Received frames as files: Wavefront .obj of cloths, animated .glb (glTF 2.0) of all that a scene shows; lengths in m, y up. */
 import { Glb } from './glb.js';
+import { addBalls, addObstacles } from './glb_bodies.js';
+import { normalsOf, quads } from './surfaces.js';
 
 /**
  * @typedef {import('./types.js').Cloth} Cloth
  * @typedef {import('./types.js').Frame} Frame
+ * @typedef {{png: Uint8Array, repeat: [number, number], roughness?: number}} Fabric a picture that is repeated so often along u and v,
+ *   from the lower left corner on
+ * @typedef {object} GlbOptions
+ * @property {any} [scene] the `scene` message: cloths are called as there, and its obstacles are drawn
+ * @property {Map<number, import('./types.js').Surface>} [surfaces] of those obstacles that are meshes, as `surface` tells them
+ * @property {(cloth: number) => Fabric | undefined} [fabricOf] what a cloth is made of
  */
+
+const LONGEST = 60;  // frames that one mesh shows: programs give each of its targets a place on the graphics card
 
 /**
  * The text of an .obj file: one object `cloth-INDEX` a cloth, quads, torn faces left out.
@@ -16,7 +26,7 @@ export function objText(frame) {
   let before = 1;  // vertices count from 1 through the file
   for (const cloth of frame.cloths) {
     lines.push(`o cloth-${cloth.cloth}`);
-    const positions = world(cloth);
+    const positions = cloth.positions.map((value, i) => value + cloth.origin[i % 3]);
     for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}`);
     for (const quad of quads(cloth)) lines.push(`f ${quad.map((node) => node + before).join(' ')}`);
     before += cloth.rows * cloth.cols;
@@ -25,21 +35,31 @@ export function objText(frame) {
 }
 
 /**
- * The bytes of a .glb file, an animation that begins at 0 s: each cloth is a mesh with a morph target a frame, and another from where
- * its level or its tears change. Throws a RangeError unless there are frames, of one epoch, each later than the one before.
+ * The bytes of a .glb file, an animation that begins at 0 s. A cloth is a mesh with a morph target a frame: one after another, each of 60
+ * frames at most, and another from where its level or its tears change. Balls are nodes that move, and so are obstacles if `scene`
+ * tells of them, planes left out. Throws a RangeError unless there are frames, of one epoch, each later than the one before.
  * @param {Frame[]} frames
+ * @param {GlbOptions} [options]
  * @returns {Uint8Array}
  */
-export function glbBytes(frames) {
+export function glbBytes(frames, { scene, surfaces = new Map(), fabricOf = () => undefined } = {}) {
   const times = timesOf(frames), glb = new Glb();
+  const plain = glb.addMaterial({ doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0 } });
+  const wear = tailor(glb, fabricOf, plain);
   for (const index of new Set(frames.flatMap(({ cloths }) => cloths.map(({ cloth }) => cloth)))) {
     const shown = frames.map(({ cloths }) => cloths.find(({ cloth }) => cloth === index));
+    const name = scene?.cloths.find((/** @type {any} */ told) => told.cloth === index)?.name || `cloth-${index}`;
     for (let from = 0, to; from < shown.length; from = to) {
       const mesh = meshOf(shown[from]);
-      for (to = from + 1; to < shown.length && meshOf(shown[to]) === mesh;) ++to;
-      if (mesh) addSpan(glb, /** @type {Cloth[]} */ (shown.slice(from, to)), from, times);
+      for (to = from + 1; to < shown.length && to - from < LONGEST && meshOf(shown[to]) === mesh;) ++to;
+      if (!mesh) continue;
+      // The next mesh takes over at its own first frame, and this one has to be there by then.
+      const goesOn = to < shown.length && meshOf(shown[to]) === mesh ? 1 : 0;
+      addSpan(glb, { name, cloths: /** @type {Cloth[]} */ (shown.slice(from, to + goesOn)), from, to, times, ...wear(index) });
     }
   }
+  addBalls(glb, frames, times);
+  addObstacles(glb, frames, times, scene?.obstacles ?? [], surfaces);
   return glb.bytes();
 }
 
@@ -54,40 +74,56 @@ function timesOf(frames) {
   return frames.map(({ stamp }) => stamp.time - frames[0].stamp.time);
 }
 
-/** Positions in the world, m. @param {Cloth} cloth */
-const world = ({ positions, origin }) => positions.map((value, i) => value + origin[i % 3]);
-
-/** Nodes of the faces that are drawn, counterclockwise with u to the right and v downwards. @param {Cloth} cloth */
-function quads({ rows, cols, torn }) {
-  const gone = new Set(torn), drawn = [];
-  for (let face = 0; face < (rows - 1) * (cols - 1); ++face) {
-    const node = face + Math.floor(face / (cols - 1));
-    if (!gone.has(face)) drawn.push([node, node + cols, node + cols + 1, node + 1]);
-  }
-  return drawn;
+/**
+ * Gives a cloth its material and how often that repeats; the same picture is stored once.
+ * @param {Glb} glb @param {(cloth: number) => Fabric | undefined} fabricOf @param {number} plain
+ */
+function tailor(glb, fabricOf, plain) {
+  /** @type {Map<Uint8Array, number>} */
+  const made = new Map();
+  return (/** @type {number} */ cloth) => {
+    const fabric = fabricOf(cloth);
+    if (!fabric) return { material: plain };
+    const { png, repeat, roughness = 0.92 } = fabric;
+    if (!made.has(png)) {
+      made.set(png, glb.addMaterial({ name: 'fabric', doubleSided: true,
+        pbrMetallicRoughness: { baseColorTexture: { index: glb.addTexture(png) }, metallicFactor: 0, roughnessFactor: roughness } }));
+    }
+    return { material: made.get(png), repeat };
+  };
 }
 
 /** What frames share that one mesh shows; none without a face. @param {Cloth | undefined} cloth */
 const meshOf = (cloth) => (cloth && cloth.torn.length < (cloth.rows - 1) * (cloth.cols - 1)
-  ? [cloth.rows, cloth.cols, ...cloth.torn].join() : undefined);
+  ? [cloth.rows, cloth.cols, ...cloth.origin, ...cloth.torn].join() : undefined);
 
-/** @param {Glb} glb @param {Cloth[]} cloths @param {number} from @param {number[]} times */
-function addSpan(glb, cloths, from, times) {
-  const [first, ...later] = cloths.map(world), to = from + cloths.length;
-  const triangles = quads(cloths[0]).flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
-  const node = glb.addNode(`cloth-${cloths[0].cloth}-frame-${from}`, {
+/**
+ * @param {Glb} glb
+ * @param {{name: string, cloths: Cloth[], from: number, to: number, times: number[], material?: number, repeat?: [number, number]}} span
+ *   shown from frame `from` until frame `to`
+ */
+function addSpan(glb, { name, cloths, from, to, times, material, repeat }) {
+  const triangles = Uint32Array.from(quads(cloths[0]).flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
+  const [first, ...later] = cloths.map(({ positions }) => ({ positions, normals: normalsOf(positions, triangles) }));
+  const add = (/** @type {Float32Array} */ values) => glb.add(values, 'VEC3');
+  const since = (/** @type {'positions'|'normals'} */ what) => (/** @type {typeof first} */ frame) =>
+    add(frame[what].map((value, i) => value - first[what][i]));
+  const [positions, normals] = [later.map(since('positions')), later.map(since('normals'))];
+  const mesh = glb.addMesh({
+    name,
     primitives: [{
-      attributes: { POSITION: glb.add(first, 'VEC3') },
-      indices: glb.add(Uint32Array.from(triangles), 'SCALAR'),
-      material: 0,
-      ...(later.length && { targets: later.map((positions) => (
-        { POSITION: glb.add(positions.map((value, i) => value - first[i]), 'VEC3') })) }),
+      attributes: { POSITION: add(first.positions), NORMAL: add(first.normals), TEXCOORD_0: glb.add(coordinates(cloths[0], repeat), 'VEC2') },
+      indices: glb.add(triangles, 'SCALAR'),
+      material,
+      ...(later.length && { targets: later.map((_, i) => ({ POSITION: positions[i], NORMAL: normals[i] })) }),
     }],
     ...(later.length && { weights: later.map(() => 0) }),
   });
+  const whole = from === 0 && to === times.length;
+  const node = glb.addNode({ name: whole ? name : `${name}-frame-${from}`, mesh, translation: cloths[0].origin });
   if (later.length) {
     const weights = cloths.flatMap((_, frame) => later.map((__, target) => (frame === target + 1 ? 1 : 0)));
-    glb.animate(node, 'weights', 'LINEAR', times.slice(from, to), weights, 'SCALAR');
+    glb.animate(node, 'weights', 'LINEAR', times.slice(from, from + cloths.length), weights, 'SCALAR');
   }
   // Scaled to nothing before and after.
   const keys = [...(from > 0 ? [[0, 0]] : []), [from, 1], ...(to < times.length ? [[to, 0]] : [])];
@@ -95,3 +131,9 @@ function addSpan(glb, cloths, from, times) {
     glb.animate(node, 'scale', 'STEP', keys.map(([frame]) => times[frame]), keys.flatMap(([, scale]) => [scale, scale, scale]), 'VEC3');
   }
 }
+
+/** Where on the picture each node is; its upper left corner is (0, 0). @param {Cloth} cloth @param {[number, number]} [repeat] */
+const coordinates = ({ rows, cols }, [across, up] = [1, 1]) => Float32Array.from({ length: 2 * rows * cols }, (_, i) => {
+  const node = i >> 1, u = (node % cols) / (cols - 1), v = Math.floor(node / cols) / (rows - 1);
+  return i % 2 === 0 ? u * across : 1 - (1 - v) * up;
+});

@@ -1,20 +1,20 @@
-"""Received frames as files: Wavefront .obj, animated .glb (glTF 2.0), .npz for learning. Cloths alone are drawn; lengths in m, y up."""
+"""Received frames as files: .obj of cloths, animated .glb of all that a scene shows, .npz for learning; lengths in m, y up."""
 from __future__ import annotations
 
 import itertools
-import json
 import os
-import struct
 import typing
 
 import numpy as np
 import numpy.typing as npt
 
-from .types import Array, Cloth, Frame
+from .glb import Glb
+from .glb_bodies import add_balls, add_obstacles
+from .surfaces import normals_of, quads
+from .types import Array, Cloth, Frame, Message
 
-_FLOAT, _UINT32 = 5126, 5125  # glTF's componentType
+_LONGEST = 60  # frames that one mesh shows: programs give each of its targets a place on the graphics card
 Path = typing.Union[str, "os.PathLike[str]"]
-_Json = typing.Dict[str, typing.Any]
 
 
 def write_obj(path: Path, frame: Frame) -> None:
@@ -23,22 +23,33 @@ def write_obj(path: Path, frame: Frame) -> None:
     for cloth in frame.cloths:
         lines.append(f"o cloth-{cloth.cloth}")
         lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in cloth.positions.reshape(-1, 3).tolist()]
-        lines += [f"f {a} {b} {c} {d}" for a, b, c, d in (_quads(cloth) + before).tolist()]
+        lines += [f"f {a} {b} {c} {d}" for a, b, c, d in (quads(cloth) + before).tolist()]
         before += cloth.rows * cloth.cols
     with open(path, "w", encoding="ascii") as out:
         out.write("\n".join(lines) + "\n")
 
 
-def write_glb(path: Path, frames: typing.Sequence[Frame]) -> None:
-    """An animation that begins at 0 s: each cloth is a mesh with a morph target a frame, and another from where its level or its
-    tears change. Raises ValueError unless there are frames, of one epoch, each later than the one before."""
+def write_glb(path: Path, frames: typing.Sequence[Frame], scene: typing.Optional[Message] = None,
+              surfaces: typing.Optional[typing.Mapping[int, Message]] = None) -> None:
+    """An animation that begins at 0 s. A cloth is a mesh with a morph target a frame: one after another, each of 60 frames at most,
+    and another from where its level or its tears change. Balls are nodes that move, and so are obstacles if `scene` (the message,
+    as a client has it) tells of them, planes left out; `surfaces`: of those that are meshes, as `surface` tells them. Raises
+    ValueError unless there are frames, of one epoch, each later than the one before."""
     times = _times(frames)
-    glb = _Glb()
+    glb = Glb()
+    material = glb.add_material({"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}})
+    names = {told["cloth"]: told.get("name") for told in scene["cloths"]} if scene else {}
     for index in sorted({cloth.cloth for frame in frames for cloth in frame.cloths}):
         shown = [next((cloth for cloth in frame.cloths if cloth.cloth == index), None) for frame in frames]
-        for mesh, span in itertools.groupby(range(len(shown)), lambda i: _mesh(shown[i])):
-            if mesh is not None:
-                _add_span(glb, index, shown, list(span), times)
+        for mesh, group in itertools.groupby(range(len(shown)), lambda i: _mesh(shown[i])):
+            span = list(group)
+            for begin in range(0, len(span) if mesh else 0, _LONGEST):
+                # The next mesh takes over at its own first frame, and this one has to be there by then.
+                part = span[begin:begin + _LONGEST + 1]
+                end = part[0] + min(len(part), _LONGEST)
+                _add_span(glb, names.get(index) or f"cloth-{index}", [shown[i] for i in part], part[0], end, times, material)
+    add_balls(glb, frames, times)
+    add_obstacles(glb, frames, times, scene.get("obstacles", []) if scene else [], surfaces or {})
     with open(path, "wb") as out:
         out.write(glb.bytes())
 
@@ -83,13 +94,6 @@ def _times(frames: typing.Sequence[Frame]) -> npt.NDArray[np.float64]:
     return since
 
 
-def _quads(cloth: Cloth) -> npt.NDArray[np.int64]:
-    """Nodes of the faces that are drawn, (faces, 4), counterclockwise with u to the right and v downwards."""
-    node = np.arange(cloth.rows * cloth.cols).reshape(cloth.rows, cloth.cols)
-    quads = np.stack([node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]], axis=-1).reshape(-1, 4)
-    return np.delete(quads, cloth.torn, axis=0)
-
-
 def _mesh(cloth: typing.Optional[Cloth]) -> typing.Optional[typing.Tuple[int, int, typing.Tuple[int, ...]]]:
     """What frames share that one mesh shows; none without a face."""
     if cloth is None or len(cloth.torn) == (cloth.rows - 1) * (cloth.cols - 1):
@@ -97,67 +101,29 @@ def _mesh(cloth: typing.Optional[Cloth]) -> typing.Optional[typing.Tuple[int, in
     return cloth.rows, cloth.cols, tuple(cloth.torn)
 
 
-def _add_span(glb: _Glb, index: int, shown: typing.Sequence[typing.Optional[Cloth]], span: typing.List[int],
-              times: npt.NDArray[np.float64]) -> None:
-    cloths = [cloth for cloth in (shown[i] for i in span) if cloth is not None]
-    first = cloths[0].positions.reshape(-1, 3)
-    triangles = _quads(cloths[0])[:, [0, 1, 2, 0, 2, 3]].reshape(-1)
-    primitive: _Json = {"attributes": {"POSITION": glb.add(first, "VEC3")}, "indices": glb.add(triangles.astype("<u4"), "SCALAR"),
-                        "material": 0}
-    mesh: _Json = {"primitives": [primitive]}
+def _add_span(glb: Glb, name: str, shown: typing.Sequence[typing.Optional[Cloth]], begin: int, end: int,
+              times: npt.NDArray[np.float64], material: int) -> None:
+    """A mesh that is seen from frame `begin` until frame `end`."""
+    cloths = [cloth for cloth in shown if cloth is not None]
+    triangles = quads(cloths[0])[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.uint32)
+    positions = [cloth.positions.reshape(-1, 3) for cloth in cloths]
+    normals = [normals_of(each, triangles) for each in positions]
+    v, u = np.meshgrid(*(np.linspace(0, 1, count) for count in cloths[0].positions.shape[:2]), indexing="ij")
+    primitive: Message = {
+        "attributes": {"POSITION": glb.add(positions[0]), "NORMAL": glb.add(normals[0]),
+                       "TEXCOORD_0": glb.add(np.stack([u, v], axis=-1).reshape(-1, 2))},
+        "indices": glb.add(triangles.reshape(-1)), "material": material}
+    mesh: Message = {"name": name, "primitives": [primitive]}
     if len(cloths) > 1:
-        primitive["targets"] = [{"POSITION": glb.add(cloth.positions.reshape(-1, 3) - first, "VEC3")} for cloth in cloths[1:]]
+        primitive["targets"] = [{"POSITION": glb.add(position - positions[0]), "NORMAL": glb.add(normal - normals[0])}
+                                for position, normal in zip(positions[1:], normals[1:])]
         mesh["weights"] = [0] * (len(cloths) - 1)
-    node = glb.add_node(f"cloth-{index}-frame-{span[0]}", mesh)
+    whole = begin == 0 and end == len(times)
+    node = glb.add_node({"name": name if whole else f"{name}-frame-{begin}", "mesh": glb.add_mesh(mesh)})
     if len(cloths) > 1:
-        glb.animate(node, "weights", "LINEAR", times[span], np.eye(len(cloths))[:, 1:].reshape(-1), "SCALAR")
+        glb.animate(node, "weights", "LINEAR", times[begin:begin + len(cloths)], np.eye(len(cloths))[:, 1:].reshape(-1))
     # Scaled to nothing before and after.
-    keys = [(0, 0)] * (span[0] > 0) + [(span[0], 1)] + [(span[-1] + 1, 0)] * (span[-1] + 1 < len(times))
+    keys = [(0, 0)] * (begin > 0) + [(begin, 1)] + [(end, 0)] * (end < len(times))
     if len(keys) > 1:
         at, scale = zip(*keys)
-        glb.animate(node, "scale", "STEP", times[list(at)], np.repeat(scale, 3).reshape(-1, 3), "VEC3")
-
-
-class _Glb:
-    """A document and its one buffer."""
-
-    def __init__(self) -> None:
-        self._binary = bytearray()
-        self._channels: typing.List[_Json] = []
-        self._samplers: typing.List[_Json] = []
-        material = {"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}}
-        self._json: _Json = {"asset": {"version": "2.0", "generator": "weft-client"}, "materials": [material]}
-
-    def add(self, values: Array, kind: str) -> int:
-        """An accessor of float32, or of uint32 where `values` are."""
-        data = values if values.dtype == np.dtype("<u4") else values.astype("<f4")
-        rows = data.reshape(len(data), -1)
-        views, accessors = (self._json.setdefault(name, []) for name in ("bufferViews", "accessors"))
-        views.append({"buffer": 0, "byteOffset": len(self._binary), "byteLength": data.nbytes})
-        accessors.append({"bufferView": len(views) - 1, "componentType": _UINT32 if data.dtype == np.dtype("<u4") else _FLOAT,
-                          "count": len(rows), "type": kind, "min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()})
-        self._binary += data.tobytes()
-        return len(accessors) - 1
-
-    def add_node(self, name: str, mesh: _Json) -> int:
-        meshes, nodes = (self._json.setdefault(name, []) for name in ("meshes", "nodes"))
-        meshes.append({"name": name, **mesh})
-        nodes.append({"name": name, "mesh": len(meshes) - 1})
-        return len(nodes) - 1
-
-    def animate(self, node: int, what: str, interpolation: str, times: Array, values: Array, kind: str) -> None:
-        self._channels.append({"sampler": len(self._samplers), "target": {"node": node, "path": what}})
-        self._samplers.append({"input": self.add(times, "SCALAR"), "output": self.add(values, kind), "interpolation": interpolation})
-
-    def bytes(self) -> bytes:
-        document = dict(self._json, scene=0, scenes=[{"nodes": list(range(len(self._json["nodes"])))}] if "nodes" in self._json else [{}])
-        if self._binary:
-            document["buffers"] = [{"byteLength": len(self._binary)}]
-        if self._channels:
-            document["animations"] = [{"channels": self._channels, "samplers": self._samplers}]
-        text = json.dumps(document, separators=(",", ":")).encode("ascii")
-        text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text
-        if self._binary:
-            chunks += struct.pack("<I4s", len(self._binary), b"BIN\0") + self._binary
-        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+        glb.animate(node, "scale", "STEP", times[list(at)], np.repeat(scale, 3).reshape(-1, 3))
