@@ -1,8 +1,16 @@
 #pragma once
 /// What is done to one cloth of a simulation, by its index (command.h).
+#include <cstddef>
 #include <optional>
 
-#include "cloth/world/simulation.h"
+#include "cloth/core/grab_id.h"
+#include "cloth/core/vec3.h"
+#include "cloth/sheet/material.h"
+
+namespace weft {
+template <class Real>
+class Simulation;
+}  // namespace weft
 
 namespace weft::command {
 

@@ -1,8 +1,16 @@
 #pragma once
 /// What is done to one ball, by its id, or obstacle of a simulation, by its place (command.h).
+#include <cstddef>
 #include <optional>
 
-#include "cloth/world/simulation.h"
+#include "cloth/core/grab_id.h"
+#include "cloth/core/path.h"
+#include "cloth/world/colliders.h"
+
+namespace weft {
+template <class Real>
+class Simulation;
+}  // namespace weft
 
 namespace weft::command {
 

@@ -8,6 +8,7 @@
 
 #include "cloth/world/cloth_commands.h"
 #include "cloth/world/collider_commands.h"
+#include "cloth/world/simulation.h"
 
 namespace weft::command {
 
