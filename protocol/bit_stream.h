@@ -12,6 +12,7 @@ namespace weft::protocol {
 /// Bits one after the other, the lowest of each byte first.
 class BitWriter {
  public:
+  /// For so many bits in all.
   explicit BitWriter(std::size_t most_bits) : bytes_(most_bits / 8 + 1 + sizeof(std::uint64_t)) {}
 
   void zeros(std::uint32_t count) { fill_ += count; }
@@ -30,6 +31,7 @@ class BitWriter {
   std::size_t fill_ = 0;
 };
 
+/// The same back.
 class BitReader {
  public:
   explicit BitReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -40,7 +42,9 @@ class BitReader {
       if (next_bit()) return count;
     return most + 1;
   }
+  /// So many bits are left.
   bool has(int width) const { return 8 * bytes_.size() - at_ >= static_cast<std::size_t>(width); }
+  /// At most 25 bits, which lie in four bytes wherever they begin; has() them.
   std::uint32_t value(int width) {
     std::uint32_t word = 0;
     const std::size_t first = at_ / 8;
