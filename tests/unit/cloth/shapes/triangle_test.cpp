@@ -30,8 +30,7 @@ TEST(Triangle, TellsTheNearestPointAndWhatItIsOn) {
 
 TEST(Triangle, IsCrossedByAWayThroughIt) {
   const WayAcross way(Vec3(1, 1, 2), Vec3(0, 0, -8));
-  ASSERT_TRUE(way.crossing(kTriangle));
-  EXPECT_DOUBLE_EQ(*way.crossing(kTriangle), 0.25);
+  EXPECT_DOUBLE_EQ(way.crossing(kTriangle).value_or(-1), 0.25);
   EXPECT_FALSE(WayAcross(Vec3(3, 3, 2), Vec3(0, 0, -8)).crossing(kTriangle));
   EXPECT_FALSE(WayAcross(Vec3(-1, 1, 0), Vec3(8, 0, 0)).crossing(kTriangle));  // in its plane
 }
