@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 
+#include "protocol/bit_stream.h"
 #include "protocol/quantised_rows.h"
 
 namespace weft::protocol {
@@ -21,62 +21,6 @@ constexpr std::int32_t kMostDifference = 131070;  ///< of 16-bit values: 2 * 655
 constexpr std::size_t kFirstParts = kRiceAxes + 1 + 4;
 
 std::size_t place(int i) { return static_cast<std::size_t>(i); }
-
-/// Bits one after the other, the lowest of each byte first.
-class BitWriter {
- public:
-  explicit BitWriter(std::size_t most_bits) : bytes_(most_bits / 8 + 1 + sizeof(std::uint64_t)) {}
-
-  void zeros(std::uint32_t count) { fill_ += count; }
-  /// At most 32 bits.
-  void value(std::uint32_t bits, int width) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes_.data() + fill_ / 8, sizeof word);
-    word |= static_cast<std::uint64_t>(bits) << (fill_ % 8);
-    std::memcpy(bytes_.data() + fill_ / 8, &word, sizeof word);
-    fill_ += place(width);
-  }
-  std::span<const std::uint8_t> bytes() const { return std::span(bytes_).first((fill_ + 7) / 8); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-  std::size_t fill_ = 0;
-};
-
-class BitReader {
- public:
-  explicit BitReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  /// Zeros before the next one; `most` + 1 if there are more, or the bytes end before it.
-  std::uint32_t zeros(std::uint32_t most) {
-    for (std::uint32_t count = 0; count <= most && at_ < 8 * bytes_.size(); ++count)
-      if (next_bit()) return count;
-    return most + 1;
-  }
-  bool has(int width) const { return 8 * bytes_.size() - at_ >= place(width); }
-  std::uint32_t value(int width) {
-    std::uint32_t word = 0;
-    const std::size_t first = at_ / 8;
-    at_ += place(width);
-    for (std::size_t byte = first; 8 * byte < at_; ++byte)
-      word |= static_cast<std::uint32_t>(bytes_[byte]) << (8 * (byte - first));
-    return word >> ((at_ - place(width)) % 8) & ((1U << width) - 1);
-  }
-  /// Bytes that no bit was read of.
-  std::size_t unread() const { return bytes_.size() - (at_ + 7) / 8; }
-  /// The bits left over in the last byte read are 0.
-  bool rest_is_zero() const { return at_ % 8 == 0 || bytes_[at_ / 8] >> (at_ % 8) == 0; }
-
- private:
-  bool next_bit() {
-    const bool bit = (bytes_[at_ / 8] >> (at_ % 8) & 1U) != 0;
-    ++at_;
-    return bit;
-  }
-
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
 
 /// Zig-zagged residuals of one axis, with what the rows so far tell of the next.
 class ResidualPlane {

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Writes all that follows from operations.json, the one table of what a client may ask and what the server says: the C++
 commands and their reader's table, the JSON Schema of client messages and the names in that of server messages, the AsyncAPI
-document, PROTOCOL.md's section an operation and its tables of server messages, and the methods of the JavaScript and Python
-clients. What writes each is in generators/.
+document, PROTOCOL.md's section an operation and its tables of server messages, the JavaScript types of what stands in scenes,
+and the methods of the JavaScript and Python clients. What writes each is in generators/.
 
 generate.py          writes them
 generate.py --check  fails if one of them is not what this script writes
@@ -13,6 +13,7 @@ from generators.asyncapi import asyncapi
 from generators.cpp import cpp_header, cpp_table
 from generators.document import sections
 from generators.javascript import javascript_commands
+from generators.obstacles import obstacle_types
 from generators.python import python_commands
 from generators.schema import client_schema
 from generators.server import server_schema, server_tables
@@ -32,7 +33,9 @@ def outputs():
     text = between(document.read_text(), "operations", "\n" + sections())
     for name, table in server_tables().items():
         text = between(text, name, table)
+    types = PROTOCOL / "clients" / "js" / "types.js"
     return {
+        types: between(types.read_text(), "obstacles", obstacle_types()),
         PROTOCOL / "operations.h": cpp_header(),
         PROTOCOL / "operations.cpp": cpp_table(),
         PROTOCOL / "schema" / "client.schema.json": client_schema(),

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
+
+#include "cloth/bodies/collider_description.h"
 
 namespace weft::cli {
 namespace {
@@ -36,13 +41,33 @@ TriangleList mesh_of_text(const std::string& text) {
   return list;
 }
 
-/// A shape of `scene` that needs no mesh; nothing for others.
+void read_length(const json& value, double& length) { length = value.get<double>(); }
+void read_length(const json& value, Vec3& lengths) { lengths = vector_of_json(value); }
+
+/// The shape if it is of this kind, which needs no mesh.
+template <class Description>
+std::optional<Shape> as(const json& obstacle) {
+  Description description;
+  if constexpr (requires { Description::lengths(); }) {
+    std::apply(
+        [&](const auto&... each) { (read_length(obstacle.at(each.name), description.*each.member), ...); },
+        Description::lengths());
+  }
+  return description.shape();
+}
+
+/// Looks the shape's name up among the kinds that there are; nothing for meshes and what is not known.
+template <std::size_t kKind = 0>
 std::optional<Shape> plain_shape(const json& obstacle) {
-  const std::string shape = obstacle.at("shape");
-  if (shape == "plane") return HalfSpace{};
-  if (shape == "box") return Box{vector_of_json(obstacle.at("size")) / 2};
-  if (shape == "capsule") return Capsule{double(obstacle.at("length")) / 2, obstacle.at("radius")};
-  return {};
+  if constexpr (kKind == std::variant_size_v<ObstacleShape>) {
+    return {};
+  } else {
+    using Description = std::variant_alternative_t<kKind, ObstacleShape>;
+    if constexpr (!std::is_same_v<Description, MeshDescription>) {
+      if (obstacle.at("shape") == Description::kName) return as<Description>(obstacle);
+    }
+    return plain_shape<kKind + 1>(obstacle);
+  }
 }
 
 }  // namespace
@@ -63,14 +88,15 @@ void SeenBodies::add_obstacle(const json& obstacle, std::size_t index, const Get
   const std::string name = "obstacle-" + std::to_string(index), shape = obstacle.at("shape");
   if (const std::optional<Shape> plain = plain_shape(obstacle)) {
     meshes_.push_back(body_mesh(name, *plain));
-  } else if (shape == "mesh" || shape == "convex") {
+  } else if (shape == MeshDescription::kName || shape == MeshDescription::kConvexName) {
     meshes_.push_back(body_mesh(name, mesh_of_text(get_mesh(index))));
   } else {
     return;
   }
   const Quaternion turned =
-      shape == "plane" ? Quaternion::FromTwoVectors(Vec3::UnitY(), vector_of_json(obstacle.at("normal")))
-                       : quaternion_of(obstacle.at("quaternion"));
+      shape == PlaneDescription::kName
+          ? Quaternion::FromTwoVectors(Vec3::UnitY(), vector_of_json(obstacle.at("normal")))
+          : quaternion_of(obstacle.at("quaternion"));
   poses_.push_back({vector_of_json(obstacle.at("position")), turned});
   ids_.push_back(static_cast<std::uint32_t>(index));
 }

@@ -18,6 +18,7 @@ struct Answer {
   std::string_view media_type = "text/plain; charset=utf-8";
   std::string etag = {};
   std::string location = {};
+  bool last = false;  ///< the connection ends with it
 };
 
 Answer plain(boost::beast::http::status status, std::string text);

@@ -8,19 +8,17 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
-#include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
-#include <charconv>
 #include <chrono>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "net/answers.h"
-#include "net/credentials.h"
 #include "net/origin.h"
 #include "net/request_rules.h"
+#include "net/routes.h"
 #include "net/websocket_session.h"
 
 namespace weft::net {
@@ -35,11 +33,9 @@ namespace {
 /// the wait for it included.
 constexpr auto kRequestTime = std::chrono::seconds(5);
 constexpr auto kResponseTime = std::chrono::seconds(30);  // for the largest file
-constexpr const char *kWebsocketVersion = "13", *kRetrySeconds = "5";
+constexpr const char* kRetrySeconds = "5";
 constexpr std::uint32_t kHeaderBytes = 8192;
 constexpr unsigned kFirstError = 400;  // of HTTP's statuses
-constexpr std::string_view kHealth = "/healthz", kReady = "/readyz", kMetrics = "/metrics",
-                           kScenes = "/v1/scenes", kScene = "/v1/scenes/", kMeshes = "/meshes/";
 
 /// The page may load what it needs from here alone, and talk to any Weft server (its address is the page's
 /// parameter).
@@ -119,60 +115,23 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void respond() {
     join_lists(parser_->get());
-    const HttpRequest& request = parser_->get();
     // A body is of use to PUT alone; where it is not read the connection ends with the answer.
-    const bool last = !request.keep_alive() || !parser_->is_done() || place_.refusal() != NoPlace::none;
-    if (const std::string fault = header_fault(request); !fault.empty())
-      return write(plain(http::status::bad_request, fault + "\n"), true);
-    if (request.count(http::field::host) > 0 &&
-        !host_allowed(view(request[http::field::host]), context_.options.names)) {
-      return write(plain(http::status::misdirected_request,
-                         "this server does not know the name in Host as its own (--host-name)\n"),
-                   last);
+    const bool last =
+        !parser_->get().keep_alive() || !parser_->is_done() || place_.refusal() != NoPlace::none;
+    const Caller caller{must_be_secure(), place_.refusal(), buffer_.size() > 0};
+    Outcome outcome = outcome_of(context_, parser_->get(), caller);
+    if (const auto* answer = std::get_if<Answer>(&outcome)) return write(*answer, last || answer->last);
+    if (auto* open = std::get_if<SceneToOpen>(&outcome)) {
+      return start_websocket_session(context_, std::move(berth_), std::move(place_), std::move(stream_),
+                                     parser_->get(), std::move(open->scene), open->role);
     }
-    const std::string_view target = view(request.target());
-    const std::string_view path = target.substr(0, target.find('?'));
-    const bool of_scenes = path == kScenes || path.starts_with(kScene);
-    // A browser asks so whether a page from elsewhere may show a token.
-    if (of_scenes && request.method() == http::verb::options)
-      return write(plain(http::status::no_content, ""), last);
-    const bool changes = request.method() == http::verb::put || request.method() == http::verb::delete_;
-    if (changes && path.starts_with(kScene))
-      return change_scenes(std::string(path.substr(kScene.size())), last);
-    if (request.method() != http::verb::get && request.method() != http::verb::head) {
-      return write(
-          plain(http::status::method_not_allowed, "only GET and HEAD, and PUT and DELETE of scenes\n"), last);
-    }
-    if (path == kHealth) return write(health(context_), last);
-    if (path == kReady) return write(readiness(context_), last);
-    if (place_.refusal() != NoPlace::none) return write(no_place(context_, place_.refusal()), last);
-    if (must_be_secure()) return write(secure_address(), last);
-    if (path == kMetrics) return write(metrics_if_allowed(), last);
-    if (of_scenes) {
-      if (const auto refusal = find_role()) return write(*refusal, last);
-    }
-    if (path == kScenes || path == kScene) {
-      const nlohmann::json list = {{"scenes", context_.host.list()}};
-      return write(json_answer(http::status::ok, list.dump()), last);
-    }
-    const std::size_t meshes = path.find(kMeshes);
-    if (path.starts_with(kScene) && meshes != path.npos) {
-      const auto text = find_mesh(path.substr(kScenes.size() + 1, meshes - kScenes.size() - 1),
-                                  path.substr(meshes + kMeshes.size()));
-      if (!text) return write(plain(http::status::not_found, "there is no such mesh\n"), last);
-      return write({http::status::ok, text, "application/json", ""}, last);
-    }
-    if (path.starts_with(kScene)) return open_scene(path.substr(kScenes.size() + 1), last);
-    if (const auto file = context_.files.find(target)) {
-      if (view(request[http::field::if_none_match]) == file->etag) {
-        return write({http::status::not_modified, nullptr, file->media_type, file->etag}, last);
-      }
-      return write({http::status::ok, file->content, file->media_type, file->etag}, last);
-    }
-    const bool page_missing = path == "/" && context_.options.web.empty();
-    write(plain(http::status::not_found,
-                page_missing ? "this server was started without a page\n" : "not found\n"),
-          last);
+    tcp().expires_after(kResponseTime);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this(), make = std::get<SceneToMake>(std::move(outcome))](
+                         error_code error, std::size_t) {
+                       if (error) return self->on_read(error);
+                       self->make_scene(make.name);
+                     });
   }
 
   /// Where there is a certificate, a token is shown to this machine alone without TLS.
@@ -181,66 +140,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     error_code error;
     const auto peer = tcp().socket().remote_endpoint(error).address();
     return !error && !is_this_machine(peer);
-  }
-
-  Answer secure_address() const {
-    const HttpRequest& request = parser_->get();
-    Answer answer = plain(http::status::permanent_redirect, "this server speaks TLS: https: and wss:\n");
-    answer.location =
-        "https://" + std::string(view(request[http::field::host])) + std::string(view(request.target()));
-    return answer;
-  }
-
-  /// What the client may do from now on; an answer if it may do nothing.
-  std::optional<Answer> find_role() {
-    const Credentials credentials = credentials_of(parser_->get());
-    if (!credentials.fault.empty()) return plain(http::status::bad_request, credentials.fault + "\n");
-    const auto role = context_.secrets.get()->access.role_of(credentials.token);
-    if (role) {
-      role_ = *role;
-      return std::nullopt;
-    }
-    return plain(http::status::unauthorized, credentials.token
-                                                 ? "the token is not one of this server's\n"
-                                                 : "a token is needed: Authorization: Bearer TOKEN\n");
-  }
-
-  /// For those who run the server.
-  Answer metrics_if_allowed() {
-    if (const auto refusal = find_role()) return *refusal;
-    if (role_ < protocol::Role::admin) return plain(http::status::forbidden, "only for the role admin\n");
-    return metrics(context_);
-  }
-
-  /// The mesh that GET /v1/scenes/NAME/meshes/OBSTACLE asks for; nullptr if there is none.
-  std::shared_ptr<const std::string> find_mesh(std::string_view name, std::string_view number) const {
-    const auto scene = context_.host.find(name);
-    std::size_t obstacle = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), obstacle);
-    if (!scene || error != std::errc() || end != number.data() + number.size()) return nullptr;
-    return scene->mesh(obstacle);
-  }
-
-  /// PUT and DELETE of /v1/scenes/NAME.
-  void change_scenes(std::string name, bool last) {
-    const HttpRequest& request = parser_->get();
-    if (place_.refusal() != NoPlace::none) return write(no_place(context_, place_.refusal()), last);
-    if (must_be_secure()) return write(secure_address(), last);
-    if (const auto refusal = find_role()) return write(*refusal, last);
-    if (!origin_allowed(view(request[http::field::origin]), view(request[http::field::host]),
-                        context_.options.allowed_origins))
-      return write(plain(http::status::forbidden, "this page's origin is not allowed (--allow-origin)\n"),
-                   last);
-    if (role_ < protocol::Role::admin)
-      return write(plain(http::status::forbidden, "scenes are made and ended by the role admin alone\n"),
-                   last);
-    if (request.method() == http::verb::delete_) return end_scene(name, last);
-    tcp().expires_after(kResponseTime);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this(), name = std::move(name)](error_code error, std::size_t) {
-                       if (error) return self->on_read(error);
-                       self->make_scene(name);
-                     });
   }
 
   void make_scene(const std::string& name) {
@@ -260,50 +159,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                     !self->parser_->get().keep_alive());
       });
     });
-  }
-
-  void end_scene(const std::string& name, bool last) {
-    const auto scene = context_.host.find(name);
-    switch (context_.host.end(name)) {
-      case host::Host::Ending::unknown:
-        return write(plain(http::status::not_found, "there is no such scene\n"), last);
-      case host::Host::Ending::own:
-        return write(plain(http::status::conflict, "this scene is the server's own\n"), last);
-      case host::Host::Ending::ended:
-        break;
-    }
-    end_websocket_sessions_in(context_, scene);
-    spdlog::info("scene {}: ended by a client", name);
-    write(plain(http::status::no_content, ""), last);
-  }
-
-  /// The upgrade of GET /v1/scenes/NAME, or why not.
-  void open_scene(std::string_view name, bool last) {
-    const HttpRequest& request = parser_->get();
-    if (!origin_allowed(view(request[http::field::origin]), view(request[http::field::host]),
-                        context_.options.allowed_origins)) {
-      return write(plain(http::status::forbidden, "this page's origin is not allowed (--allow-origin)\n"),
-                   last);
-    }
-    auto scene = context_.host.find(name);
-    if (!scene) return write(plain(http::status::not_found, "there is no such scene\n"), last);
-    if (!beast::websocket::is_upgrade(request)) {
-      return write(plain(http::status::upgrade_required, "a scene is a WebSocket\n"), last);
-    }
-    if (request[http::field::sec_websocket_version] != kWebsocketVersion)
-      return write(plain(http::status::upgrade_required, "Sec-WebSocket-Version must be 13\n"), last);
-    if (const std::string fault = upgrade_fault(request); !fault.empty())
-      return write(plain(http::status::bad_request, fault + "\n"), last);
-    if (buffer_.size() > 0) {
-      return write(plain(http::status::bad_request, "nothing may be sent before the upgrade is answered\n"),
-                   true);
-    }
-    if (context_.stopping || !scene->reserve()) {
-      return write(plain(http::status::service_unavailable, "the scene has no place for another viewer\n"),
-                   last);
-    }
-    start_websocket_session(context_, std::move(berth_), std::move(place_), std::move(stream_), request,
-                            std::move(scene), role_);
   }
 
   void write(const Answer& answer, bool last) {
@@ -363,7 +218,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Berth berth_;
   ConnectionPool::Place place_;
   Transport stream_;
-  protocol::Role role_ = protocol::Role::view;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::shared_ptr<const std::string> content_;  ///< what the response's body points into

@@ -21,6 +21,9 @@ void join_lists(HttpRequest& request);
 /// once and stand twice are refused: two readers could choose different ones.
 std::string header_fault(const HttpRequest& request);
 
+/// The only version of the WebSocket protocol there is: RFC 6455.
+inline constexpr const char* kWebsocketVersion = "13";
+
 /// What is wrong with those of a request to upgrade to a WebSocket of this protocol (RFC 6455,
 /// section 4.2.1), but for its version; empty if nothing is. Its lists are joined.
 std::string upgrade_fault(const HttpRequest& request);

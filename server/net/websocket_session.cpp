@@ -14,7 +14,7 @@
 
 #include "host/connection.h"
 #include "net/gated_stream.h"
-#include "net/message_head.h"
+#include "net/outgoing_message.h"
 
 namespace weft::net {
 
@@ -120,7 +120,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
       while (closing_ && next && !next->text) next = viewer().take();  // no frames any more
       if (closing_ && !next) return send_close();
       if (!next) return;
-      outgoing_ = std::move(*next);
+      outgoing_.take(std::move(*next));
       write_outgoing();
     }
   }
@@ -207,34 +207,23 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 
   /// Most often all of it goes out at once, and nothing is left to wait for.
   void write_outgoing() {
-    buffers_.assign(1, {});  // the head, when it is known
-    if (outgoing_.text) {
-      buffers_.push_back(asio::buffer(*outgoing_.text));
-    } else {
-      for (const host::Record& record : outgoing_.frame->records) buffers_.push_back(asio::buffer(*record));
-    }
-    const std::size_t payload = asio::buffer_size(buffers_);
-    count_outgoing(payload);
-    head_ = {outgoing_.text ? MessageHead::Kind::text : MessageHead::Kind::binary, payload};
-    buffers_.front() = asio::buffer(head_.bytes().data(), head_.bytes().size());
-    const std::size_t sent = ws_.next_layer().write_at_once(buffers_);
-    if (sent == head_.bytes().size() + payload) {
-      outgoing_ = {};
-      return;
-    }
+    count_outgoing();
+    const auto& buffers = outgoing_.buffers();
+    const std::size_t sent = ws_.next_layer().write_at_once(buffers);
+    if (sent == asio::buffer_size(buffers)) return outgoing_.clear();
     writing_ = true;
-    beast::buffers_suffix<std::vector<asio::const_buffer>> rest(buffers_);
+    beast::buffers_suffix<std::vector<asio::const_buffer>> rest(buffers);
     rest.consume(sent);
     ws_.next_layer().async_write_rest(
         rest, [self = shared_from_this()](error_code error, std::size_t) { self->on_written(error); });
   }
 
-  void count_outgoing(std::size_t bytes) {
+  void count_outgoing() {
     host::Metrics& metrics = context_.host.metrics();
-    if (outgoing_.text) {
-      metrics.sent_text(bytes);
+    if (outgoing_.is_text()) {
+      metrics.sent_text(outgoing_.payload());
     } else {
-      metrics.sent_frame(bytes);
+      metrics.sent_frame(outgoing_.payload());
     }
     const std::uint64_t dropped = viewer().dropped();
     if (dropped > dropped_) metrics.dropped_frames(dropped - std::exchange(dropped_, dropped));
@@ -242,7 +231,7 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
 
   void on_written(error_code error) {
     writing_ = false;
-    outgoing_ = {};
+    outgoing_.clear();
     // After an error nothing more can be written; the read that is under way fails as well and ends the
     // session.
     if (!error) pump();
@@ -262,10 +251,8 @@ class WebsocketSession : public std::enable_shared_from_this<WebsocketSession> {
   SteadyTimer way_timer_;
   std::string peer_;
   beast::flat_buffer incoming_;
-  host::Outgoing outgoing_;                  ///< what is being written
-  MessageHead head_;                         ///< of it
-  std::vector<asio::const_buffer> buffers_;  ///< head, and what follows it
-  std::uint64_t dropped_ = 0;                ///< frames, as far as they are counted
+  OutgoingMessage outgoing_;   ///< what is being written
+  std::uint64_t dropped_ = 0;  ///< frames, as far as they are counted
   std::optional<websocket::close_reason> closing_;
   bool accepted_ = false, writing_ = false, drain_ = false, close_sent_ = false;
   host::Connection connection_;

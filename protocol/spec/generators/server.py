@@ -1,7 +1,9 @@
 """What the server sends, of which operations.json has the names and meanings: the tables of PROTOCOL.md's section 3, and the
-names in the JSON Schema of server messages (schema/server.schema.json), whose members are written there by hand."""
+names in the JSON Schema of server messages (schema/server.schema.json), whose members, but for those of obstacles, are written
+there by hand."""
 import json
 
+from .obstacles import obstacle_rows, obstacle_schema
 from .schema import pretty
 from .table import PROTOCOL, SPEC
 
@@ -46,6 +48,7 @@ def server_tables():
               for message in SERVER["messages"] if "members" in message}
     tables["messages"] = overview()
     tables["events"] = table(("kind", "members"), [(quoted(event["kinds"]), event["members"]) for event in SERVER["events"]])
+    tables["obstacles"] = table(("shape", "solid is"), obstacle_rows())
     tables["notices"] = table(("code", "meaning"), [(quoted(row["codes"]), row["meaning"]) for row in SERVER["notices"]])
     tables["errors"] = table(("code", "when"), [(quoted(row["codes"]), row["when"]) for row in SERVER["errors"]])
     return tables
@@ -63,6 +66,7 @@ def server_schema():
         definitions[name]["description"] = summary
     for event in SERVER["events"]:
         definitions[event["name"]]["properties"]["kind"]["enum"] = event["kinds"]
+    definitions["obstacle"] = obstacle_schema()
     schema["oneOf"] = [{"$ref": f"#/$defs/{name}"} for name, _ in named]
     schema["properties"]["op"]["enum"] = [message["op"] for message in SERVER["messages"]] + ["event"]
     definitions["error"]["properties"]["code"]["enum"] = codes("errors")

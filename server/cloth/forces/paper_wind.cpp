@@ -1,6 +1,6 @@
 #include "cloth/forces/paper_wind.h"
 
-#include "cloth/kernels/air_kernels.h"
+#include "cloth/kernels/push_kernels.h"
 
 namespace weft {
 namespace {

@@ -1,14 +1,9 @@
 #pragma once
 #include "cloth/kernels/components.h"
 #include "cloth/kernels/link_kernels.h"
+#include "cloth/kernels/uniform.h"
 
 namespace weft::kernels {
-
-/// A vector that is the same everywhere: the air's velocity, the wind's direction.
-template <class Real>
-struct Uniform {
-  Real x, y, z;
-};
 
 /// What a face gives the air that flows through it: 1/2 rho times the coefficients.
 template <class Real>
@@ -40,24 +35,5 @@ void add_air_damping(const Grid& grid, Components<const Real> position, Componen
 template <class Real, class Air>
 Real max_air_flow(const Grid& grid, Components<const Real> position, Components<const Real> velocity,
                   const Air& air);
-
-/// Strength of the paper's wind on a node, N, where it blows at unit speed: per_node + per_mass * mass.
-template <class Real>
-struct Push {
-  Real per_node;
-  Real per_mass;
-};
-
-/// force += push * wind on every node.
-template <class Real, class Air>
-void add_push(const Grid& grid, const Real* mass, const Push<Real>& push, const Air& wind,
-              Components<Real> force);
-
-/// force += push |wind| N, N the unit normal of the surface at the node (from its four neighbours, fewer on
-/// the border), turned towards the wind; nothing where the neighbours span no surface. A Uniform wind must
-/// be of unit length.
-template <class Real, class Air>
-void add_push_along_normals(const Grid& grid, Components<const Real> position, const Real* mass,
-                            const Push<Real>& push, const Air& wind, Components<Real> force);
 
 }  // namespace weft::kernels

@@ -1,42 +1,14 @@
 #pragma once
 #include <optional>
 
-#include "cloth/kernels/bands.h"
-#include "cloth/sheet/plate.h"
 #include "cloth/sheet/seam.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/coarse_solver.h"
+#include "cloth/solver/grid_level.h"
 #include "cloth/solver/line_smoother.h"
-#include "cloth/solver/node_arrays.h"
 #include "cloth/solver/node_couplings.h"
 
 namespace weft {
-
-/// One grid of the hierarchy: its matrix and the vectors of a cycle, with their storage.
-template <class Real, class Links>
-struct GridLevel {
-  GridLevel(const Grid& grid, bool has_bending, const Plate<Real>* plate);
-  GridLevel(GridLevel&&) noexcept = default;  // not to be copied: the views below point into the storage
-
-  Bands bands;
-  kernels::LinkMatrix<Real, Links> matrix;
-  std::optional<Plate<Real>> plate;  ///< part of the matrix, if there is one
-  bool cycles_plate = false;         ///< the plate is part of the cycle, too
-  kernels::Blocks<Real> inverse;     ///< of the diagonal blocks, damped
-  kernels::Components<Real> b, x, y;
-
-  Real* diagonal() { return numbers_[0]; }
-  Real* free() { return numbers_[1]; }
-  /// The matrix as block Jacobi sees it: with the plate's share of the diagonal, if the plate is cycled.
-  kernels::LinkMatrix<Real, Links> smoothed();
-  /// Decides whether the plate is cycled, by the diagonal.
-  void weigh_plate();
-  /// With blocks in the diagonal, all zero, or without.
-  void use_blocks(bool use);
-
- private:
-  NodeArrays<Real> numbers_, links_, blocks_, inverse_, vectors_;
-};
 
 /// The linear system of an implicit step, A x = b with A as in link_kernels.h, and its preconditioner: one
 /// V(1,1) multigrid cycle over the nested levels (Briggs, Henson, McCormick, A Multigrid Tutorial, 2000). The

@@ -2,75 +2,15 @@
 /// What is done to a simulation between two steps, as data: so that it can be written down and done again.
 /// Each is one of Simulation's calls, carry_out() makes it; of equal states and equal commands follow equal
 /// states, to the bit.
+#include <cstdint>
 #include <variant>
+#include <vector>
 
+#include "cloth/world/cloth_commands.h"
+#include "cloth/world/collider_commands.h"
 #include "cloth/world/simulation.h"
 
 namespace weft::command {
-
-struct RequestLevel {
-  std::size_t cloth = 0;
-  int level = 0;
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.request_level(cloth, level);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, level);
-  }
-};
-
-/// Takes the level asked for at once, not before the next step. Returns whether it changed.
-struct ApplyLevel {
-  std::size_t cloth = 0;
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.cloths()[cloth].apply_pending_level();
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth);
-  }
-};
-
-struct SetResting {
-  std::size_t cloth = 0;
-  bool resting = false;
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.set_resting(cloth, resting);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, resting);
-  }
-};
-
-struct SetMostWork {
-  std::size_t cloth = 0;
-  double most = 0;
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.cloths()[cloth].set_most_work(most);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, most);
-  }
-};
-
-struct TryAgain {
-  std::size_t cloth = 0;
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.cloths()[cloth].try_again();
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth);
-  }
-};
 
 struct SetWind {
   Wind wind;
@@ -121,151 +61,6 @@ struct SetEffects {
   }
 };
 
-struct SetMaterial {
-  std::size_t cloth = 0;
-  Material material;
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.set_material(cloth, material);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, material);
-  }
-};
-
-struct SetBallFriction {
-  BallId ball = 0;
-  double friction = 0;
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.set_ball_friction(ball, friction);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ball, friction);
-  }
-};
-
-struct SetObstacleFriction {
-  std::size_t obstacle = 0;
-  double friction = 0;
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.set_obstacle_friction(obstacle, friction);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(obstacle, friction);
-  }
-};
-
-struct AddBall {
-  BallDescription ball;
-  template <class Real>
-  BallId carry_out(Simulation<Real>& simulation) const {
-    return simulation.add_ball(ball);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ball);
-  }
-};
-
-struct MoveBall {
-  BallId ball = 0;
-  Vec3 target{0, 0, 0};
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.move_ball(ball, target);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ball, target);
-  }
-};
-
-struct ThrowBall {
-  BallId ball = 0;
-  Vec3 velocity{0, 0, 0};
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.throw_ball(ball, velocity);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ball, velocity);
-  }
-};
-
-struct RemoveBall {
-  BallId ball = 0;
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.remove_ball(ball);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ball);
-  }
-};
-
-struct MoveObstacle {
-  std::size_t obstacle = 0;
-  Pose target;
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.move_obstacle(obstacle, target);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(obstacle, target);
-  }
-};
-
-struct ThrowObstacle {
-  std::size_t obstacle = 0;
-  Vec3 velocity{0, 0, 0}, spin{0, 0, 0};
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.throw_obstacle(obstacle, velocity, spin);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(obstacle, velocity, spin);
-  }
-};
-
-struct GrabCloth {
-  std::size_t cloth = 0;
-  Vec2 at{0, 0};
-  std::optional<Vec3> hand;
-  double max_force = 0;
-  template <class Real>
-  GrabId carry_out(Simulation<Real>& simulation) const {
-    return simulation.grab(cloth, at, hand, max_force);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, at, hand, max_force);
-  }
-};
-
-struct GrabObstacle {
-  std::size_t obstacle = 0;
-  Vec3 point{0, 0, 0};
-  std::optional<Vec3> hand;
-  double max_force = 0;
-  template <class Real>
-  std::optional<GrabId> carry_out(Simulation<Real>& simulation) const {
-    return simulation.grab_obstacle(obstacle, point, hand, max_force);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(obstacle, point, hand, max_force);
-  }
-};
-
 struct MoveGrab {
   GrabId grab = 0;
   Vec3 hand{0, 0, 0};
@@ -291,32 +86,6 @@ struct Release {
   }
 };
 
-struct Pin {
-  std::size_t cloth = 0;
-  Vec2 at{0, 0};
-  template <class Real>
-  void carry_out(Simulation<Real>& simulation) const {
-    simulation.pin(cloth, at);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, at);
-  }
-};
-
-struct Unpin {
-  std::size_t cloth = 0;
-  Vec2 at{0, 0};
-  template <class Real>
-  bool carry_out(Simulation<Real>& simulation) const {
-    return simulation.unpin(cloth, at);
-  }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(cloth, at);
-  }
-};
-
 struct Reset {
   template <class Real>
   void carry_out(Simulation<Real>& simulation) const {
@@ -326,7 +95,6 @@ struct Reset {
   void serialize(Archive&) {}
 };
 
-/// So many steps in a row.
 struct Steps {
   std::uint32_t count = 1;
   template <class Real>
@@ -339,6 +107,7 @@ struct Steps {
   }
 };
 
+/// Records hold the place in this list: what is new stands last.
 using Command = std::variant<Steps, RequestLevel, ApplyLevel, SetResting, SetMostWork, TryAgain, SetWind,
                              SetWindZone, SetIntegrator, SetEffects, SetMaterial, SetBallFriction,
                              SetObstacleFriction, AddBall, MoveBall, ThrowBall, RemoveBall, MoveObstacle,

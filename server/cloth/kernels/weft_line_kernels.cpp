@@ -1,9 +1,9 @@
-#include "cloth/kernels/line_kernels.h"
-
+/// Line solves along the rows, which are turned over in groups.
+#include <algorithm>
 #include <cstring>
 
-#include "cloth/kernels/link_rows.h"
-#include "cloth/kernels/node_blocks.h"
+#include "cloth/kernels/line_kernels.h"
+#include "cloth/kernels/line_pivots.h"
 
 namespace weft::kernels {
 namespace {
@@ -11,138 +11,6 @@ namespace {
 constexpr int kLines = kWeftLines;
 /// Of a node in a group of weft threads: E's six numbers, m, and E m.
 constexpr int kFactors = 12;
-/// What a pivot may lose to rounding, in units of the scalar's last digit of its node's block: so much is
-/// added to that beforehand.
-constexpr int kRounding = 128;
-
-/// share times m m^T.
-template <class Real>
-[[gnu::always_inline]] inline Block<Real> along(Real x, Real y, Real z, Real share) {
-  const Real sx = share * x, sy = share * y, sz = share * z;
-  return {sx * x, sx * y, sx * z, sy * y, sy * z, sz * z};
-}
-
-template <class Real>
-[[gnu::always_inline]] inline Triple<Real> times(const Block<Real>& block, Real x, Real y, Real z) {
-  return {block.xx * x + block.xy * y + block.xz * z, block.xy * x + block.yy * y + block.yz * z,
-          block.xz * x + block.yz * y + block.zz * z};
-}
-
-template <class Real, bool kBending, bool kBlocks>
-[[gnu::always_inline]] inline void factorise_warp_rows(const LinkMatrix<Real, SpringLinks<Real>>& matrix,
-                                                       const Blocks<Real>& nodes,
-                                                       const LineFactors<Real>& factors, ColumnRange columns,
-                                                       Real* work) {
-  const Grid& grid = matrix.grid;
-  const int end = std::min(columns.end, grid.cols);
-  const std::ptrdiff_t size = grid.stride;
-  // What a node's pivot is less than its block by, because of the link from above.
-  const Blocks<Real> less{work,           work + size, work + 2 * size, work + 3 * size, work + 4 * size,
-                          work + 5 * size};
-  std::fill_n(work, 6 * size, Real(0));
-  const SpringLinks<Real>& link = matrix.links.along_v;
-  for (int r = 0; r < grid.rows; ++r) {
-    const std::ptrdiff_t first = r * size;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = columns.begin; c < end; ++c) {
-      const std::ptrdiff_t i = first + c;
-      Block<Real> pivot = node_block<Real, kBending, kBlocks>(matrix, i);
-      const Real trace = pivot.xx + pivot.yy + pivot.zz;
-      const Real rounding = kRounding * std::numeric_limits<Real>::epsilon() * trace;
-      pivot.xx += rounding;
-      pivot.yy += rounding;
-      pivot.zz += rounding;
-      store(nodes, i, pivot);
-      pivot.add(block_at(less, c), Real(-1));
-      const Block<Real> e = inverted(pivot, matrix.diagonal[i], matrix.free[i], 1 / trace);
-      store(factors.inverse, i, e);
-      const Real x = link.x[i], y = link.y[i], z = link.z[i];
-      const Triple<Real> w = times(e, x, y, z);
-      factors.along.x[i] = w.x;
-      factors.along.y[i] = w.y;
-      factors.along.z[i] = w.z;
-      store(less, c, along(x, y, z, w.x * x + w.y * y + w.z * z));
-    }
-  }
-}
-
-template <class Real>
-[[gnu::always_inline]] inline void factorise_warp_any(const LinkMatrix<Real, SpringLinks<Real>>& matrix,
-                                                      const Blocks<Real>& nodes,
-                                                      const LineFactors<Real>& factors, ColumnRange columns,
-                                                      Real* work) {
-  const bool bending = matrix.links.has_bending;
-  if (bending && matrix.has_blocks) {
-    factorise_warp_rows<Real, true, true>(matrix, nodes, factors, columns, work);
-  } else if (bending) {
-    factorise_warp_rows<Real, true, false>(matrix, nodes, factors, columns, work);
-  } else if (matrix.has_blocks) {
-    factorise_warp_rows<Real, false, true>(matrix, nodes, factors, columns, work);
-  } else {
-    factorise_warp_rows<Real, false, false>(matrix, nodes, factors, columns, work);
-  }
-}
-
-template <class Real, bool kAdd>
-[[gnu::always_inline]] inline void solve_warp_columns(const LinkMatrix<Real, SpringLinks<Real>>& matrix,
-                                                      const LineFactors<Real>& factors, Real damping,
-                                                      const WarpSolve<Real>& fields, ColumnRange columns,
-                                                      Real* work) {
-  const std::ptrdiff_t stride = matrix.grid.stride;
-  const Components<Real> pull{work, work + stride, work + 2 * stride};  // of the node above
-  set_zero(pull, columns.begin, columns.end);
-  const SpringLinks<Real>& link = matrix.links.along_v;
-  const Components<const Real> r = fields.r;
-  const Components<Real> change = fields.change, x = fields.x;
-  for (int row = 0; row < matrix.grid.rows; ++row) {
-    const std::ptrdiff_t first = row * stride;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = columns.begin; c < columns.end; ++c) {
-      const std::ptrdiff_t i = first + c;
-      const Triple<Real> y = force_of(factors.inverse, i, damping * r.x[i] + pull.x[c],
-                                      damping * r.y[i] + pull.y[c], damping * r.z[i] + pull.z[c]);
-      change.x[i] = y.x;
-      change.y[i] = y.y;
-      change.z[i] = y.z;
-      const Real mx = link.x[i], my = link.y[i], mz = link.z[i];
-      const Real s = mx * y.x + my * y.y + mz * y.z;
-      pull.x[c] = s * mx;
-      pull.y[c] = s * my;
-      pull.z[c] = s * mz;
-    }
-  }
-  // Below the last row there is a row of zeros.
-  for (int row = matrix.grid.rows - 1; row >= 0; --row) {
-    const std::ptrdiff_t first = row * stride;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = columns.begin; c < columns.end; ++c) {
-      const std::ptrdiff_t i = first + c, below = i + stride;
-      const Real s = link.x[i] * change.x[below] + link.y[i] * change.y[below] + link.z[i] * change.z[below];
-      const Real vx = change.x[i] + s * factors.along.x[i], vy = change.y[i] + s * factors.along.y[i],
-                 vz = change.z[i] + s * factors.along.z[i];
-      change.x[i] = vx;
-      change.y[i] = vy;
-      change.z[i] = vz;
-      if constexpr (kAdd) {
-        x.x[i] += vx;
-        x.y[i] += vy;
-        x.z[i] += vz;
-      }
-    }
-  }
-}
-
-template <class Real>
-[[gnu::always_inline]] inline void solve_warp_any(const LinkMatrix<Real, SpringLinks<Real>>& matrix,
-                                                  const LineFactors<Real>& factors, Real damping,
-                                                  const WarpSolve<Real>& fields, ColumnRange columns,
-                                                  Real* work) {
-  if (fields.x.x != nullptr) {
-    solve_warp_columns<Real, true>(matrix, factors, damping, fields, columns, work);
-  } else {
-    solve_warp_columns<Real, false>(matrix, factors, damping, fields, columns, work);
-  }
-}
 
 template <class Real>
 using Four [[gnu::vector_size(4 * sizeof(Real))]] = Real;
@@ -230,7 +98,7 @@ template <class Real>
   Real* free = work + static_cast<std::ptrdiff_t>(grouped(grid.cols)) * kLines;
   transpose_in(grid, matrix.diagonal, first, least, kLines, Real(1));
   transpose_in(grid, matrix.free, first, free, kLines);
-  Real less[6][kLines]{};  // as in factorise_warp_rows
+  Real less[6][kLines]{};  // what a pivot is less than its block by, because of the link from the left
   for (int c = 0; c < grid.cols; ++c) {
     Real* __restrict f = factors + c * kApart;
     const Real* __restrict l = least + c * kLines;
@@ -334,19 +202,7 @@ std::size_t weft_factors_size(const Grid& grid) {
 }
 
 // target_clones needs each function written out. NOLINTBEGIN(bugprone-macro-parentheses): they are types
-#define WEFT_LINE_KERNELS(Real)                                                                            \
-  template <>                                                                                              \
-  WEFT_MULTIVERSION void factorise_warp(const LinkMatrix<Real, SpringLinks<Real>>& matrix,                 \
-                                        const Blocks<Real>& nodes, const LineFactors<Real>& factors,       \
-                                        ColumnRange columns, Real* work) {                                 \
-    factorise_warp_any<Real>(matrix, nodes, factors, columns, work);                                       \
-  }                                                                                                        \
-  template <>                                                                                              \
-  WEFT_MULTIVERSION void solve_warp(const LinkMatrix<Real, SpringLinks<Real>>& matrix,                     \
-                                    const LineFactors<Real>& factors, Real damping,                        \
-                                    const WarpSolve<Real>& fields, ColumnRange columns, Real* work) {      \
-    solve_warp_any<Real>(matrix, factors, damping, fields, columns, work);                                 \
-  }                                                                                                        \
+#define WEFT_WEFT_LINE_KERNELS(Real)                                                                       \
   template <>                                                                                              \
   WEFT_MULTIVERSION void factorise_weft(const LinkMatrix<Real, SpringLinks<Real>>& matrix,                 \
                                         const Blocks<Real>& nodes, Real* factors, int first, Real* work) { \
@@ -358,9 +214,9 @@ std::size_t weft_factors_size(const Grid& grid) {
     return solve_weft_any<Real>(grid, factors, damping, fields, first, work);                              \
   }
 
-WEFT_LINE_KERNELS(float)
-WEFT_LINE_KERNELS(double)
-#undef WEFT_LINE_KERNELS
+WEFT_WEFT_LINE_KERNELS(float)
+WEFT_WEFT_LINE_KERNELS(double)
+#undef WEFT_WEFT_LINE_KERNELS
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace weft::kernels
