@@ -23,8 +23,8 @@ class MotionScale {
   /// The cloth will soon be at rest.
   bool near_rest() const { return kinetic_ <= mass_ * near_rest_ * near_rest_; }
   /// Near rest and held there. What gravity gives the nodes the springs then take away again: no measure of
-  /// an error. Held to it, errors as large as the motion brake it: at 15 Hz a crumpled sheet took 62 s to come
-  /// to rest that takes 11, and the end of a narrow ribbon stayed bent by 2 % of its length.
+  /// an error. Held to it, errors as large as the motion brake it: at 15 Hz a crumpled sheet takes 62 s to
+  /// come to rest instead of 11, and the end of a narrow ribbon stays bent by 2 % of its length.
   bool fine() const { return near_rest() && !falls_; }
   /// Twice the energy of the motion that nodes have or, unless it is fine, gravity gives them in the substep,
   /// J. Of what nothing pins as seen from its mean velocity: in flight a sheet bends no more than at rest.

@@ -208,6 +208,9 @@ template const std::vector<Arrival>& Contact<float>::foresee(const Particles<flo
 template const std::vector<Arrival>& Contact<float>::passed(const Particles<float>&,
                                                             const VectorField<float>&,
                                                             const std::vector<Solid>&, const Substep&);
+template void Contact<float>::find_inside(const Particles<float>&, const VectorField<float>&,
+                                          const std::vector<Solid>&, const Substep&, bool (*)(const Solid&),
+                                          std::vector<Touch>&);
 template std::vector<NearPoint> Contact<float>::pinned_near(const Particles<float>&,
                                                             const std::vector<Solid>&, double);
 template const std::vector<Touch>& Contact<double>::expect(const Particles<double>&,
@@ -220,6 +223,9 @@ template const std::vector<Arrival>& Contact<double>::foresee(const Particles<do
 template const std::vector<Arrival>& Contact<double>::passed(const Particles<double>&,
                                                              const VectorField<double>&,
                                                              const std::vector<Solid>&, const Substep&);
+template void Contact<double>::find_inside(const Particles<double>&, const VectorField<double>&,
+                                           const std::vector<Solid>&, const Substep&, bool (*)(const Solid&),
+                                           std::vector<Touch>&);
 template std::vector<NearPoint> Contact<double>::pinned_near(const Particles<double>&,
                                                              const std::vector<Solid>&, double);
 
