@@ -159,6 +159,23 @@ bool drawn_out(const ClothDescription& cloth, const SimulationDescription& scene
   return load_on(cloth, scene) > bears;
 }
 
+/// Whether the paper's wind, which pushes on however fast a node goes, drives loose cloth beyond the speed
+/// that the guard lets be.
+bool flies_off(const ClothDescription& cloth, const SimulationDescription& scene) {
+  const double area = cloth.size.x() * cloth.size.y(), wind = strongest_wind(scene.wind);
+  double push = 0;
+  bool loose = cloth.pins.empty();
+  for (const EffectDescription& effect : scene.effects) {
+    if (const auto* steady = std::get_if<PaperWindEffect>(&effect)) {
+      const bool papers = cloth.discretization == Discretization::paper;
+      push += steady->factor * wind * (papers ? cloth.base_cells.at(cloth.max_level).nodes() : area);
+    }
+    loose = loose || std::holds_alternative<TearingEffect>(effect);
+  }
+  const double speed = push / (cloth.material.density * area) * kRandomSeconds;
+  return loose && speed > StepGuard<float>::kMostSpeed;
+}
+
 }  // namespace
 
 double input(const SimulationDescription& scene) {
@@ -172,7 +189,7 @@ double input(const SimulationDescription& scene) {
 
 bool overloaded(const SimulationDescription& scene) {
   return std::any_of(scene.cloths.begin(), scene.cloths.end(), [&](const ClothDescription& cloth) {
-    return bursts(cloth, scene) || drawn_out(cloth, scene);
+    return bursts(cloth, scene) || drawn_out(cloth, scene) || flies_off(cloth, scene);
   });
 }
 
