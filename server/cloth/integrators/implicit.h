@@ -27,6 +27,9 @@ namespace weft {
 ///
 /// If that finds no change at all where one is due, or the system is not finite, the step is not sound.
 ///
+/// Beside a solid that passes the cloth fast for its size a step has more substeps than described
+/// (parts_beside_fast_solids).
+///
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
 ///

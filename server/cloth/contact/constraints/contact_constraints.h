@@ -39,7 +39,7 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 ///
 /// Nodes that will meet a solid in the step are held to its surface from the start, and those that a Newton
 /// iteration has put into one, or through a fast one, from the next on: put outside after the step they would
-/// stretch their springs at nobody's cost.
+/// stretch their springs without anything doing the work.
 ///
 /// A point between nodes (points_between) is held as a node is, by a spring that couples its nodes.
 ///
