@@ -33,7 +33,7 @@ bool Sleep::through(const Particles<Real>& particles, const std::vector<Solid>& 
     }
     if (asleep_ && neighbours(solids) != neighbours_) rise();
   }
-  if (company_ == Company::quiet && quiet() && !asleep()) fall_asleep(particles, solids);
+  if (company_ != Company::restless && quiet() && !asleep()) fall_asleep(particles, solids);
   if (resting_ && !asleep_) {
     if (!left_out_) box_ = box_around(particles, kMargin);
     left_out_ = !roused && neighbours(solids).has_value();

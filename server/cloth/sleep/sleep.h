@@ -14,8 +14,9 @@ namespace weft {
 /// something comes near. What counts is how far its nodes get, not how fast they are at any moment: rounding
 /// shakes stiff cloth for ever, by micrometres but at millimetres a second.
 ///
-/// Cloths that touch fall asleep together: one that slept under another that still moves would be woken by it
-/// at once, and the other thrown by what had been a rock to it for a step.
+/// Cloths that touch fall asleep together, and a cloth with the bodies on it: one that slept under another
+/// that still moves would be woken by it at once, and the other thrown by what had been a rock to it for a
+/// step.
 ///
 /// A cloth that is told to rest sleeps though it moves, in any wind; its time stands still.
 class Sleep {

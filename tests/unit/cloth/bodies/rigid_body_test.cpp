@@ -276,6 +276,7 @@ TEST(DynamicBoxSlow, ComesToRestOnASheet) {
       ASSERT_LT(box.body->velocity().norm(), scene.sleep_speed) << "step " << step;
     }
     EXPECT_GT(simulation.report(0).nodes_in_contact, 0);
+    EXPECT_TRUE(box.rest.asleep() && simulation.cloths()[0].asleep()) << "both, in the same step";
   }
 }
 
