@@ -115,6 +115,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   made.friction = SurfaceFriction(across(slip, normal), solid.friction * pressed_in);
   if (held) {
     made.last_force = same->force;
+    made.stiffness = same->stiffness;
     made.force_before = same->last_force;
     made.friction.go_on_from(same->friction);
     if (!solid.yields() || near_rest_) made.friction.keep_force_of(same->friction, normal);

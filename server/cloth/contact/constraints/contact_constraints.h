@@ -25,7 +25,9 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// A spring is as stiff as it must be to bear what it bore in the last steps by a small depth, no stiffer:
 /// what it holds then is far more than the error that a solve may leave, so that the normal force, by which
 /// friction goes, is known. It bears within a margin outside of the surface: what is not in a solid need not
-/// be put out of it after the step, which would strain the cloth's springs.
+/// be put out of it after the step, which would strain the cloth's springs. Near rest it keeps its stiffness
+/// unless its force becomes quite another: one that followed each step's force would do work by that, and
+/// shake the cloth for ever.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
 /// backward Euler as they are. Its springs are stiff, without a margin, and friction on it has no memory
@@ -158,7 +160,7 @@ class ContactConstraints {
     double led_out;                  ///< of which it is led out of the solid, where it began, m
     Vec3 solid_move;                 ///< in the substep if nothing bends its way, m
     double width;                    ///< of the solid, its inner radius, m
-    double stiffness = 0, most = 0;  ///< as it is, and as it may become, N/m
+    double stiffness = 0, most = 0;  ///< as it is, at first as it was, and as it may become, N/m
     double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
     double last_force = -1, force_before = -1;
@@ -194,6 +196,9 @@ class ContactConstraints {
   /// `place` is the point's when the substep begins, `way` its move that `surface` was looked up for.
   Constraint held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                      const Surface& surface, const Vec3& place, const Vec3& way) const;
+  /// Sets how stiff the spring of a point that has moved so is in the next linear system; `links` is the
+  /// stiffness of the links there, `inertia` the point's resistance to a move, N/m.
+  void stiffen(Constraint& c, const Vec3& moved, double links, double inertia) const;
   void let_go_of_pinched(kernels::Components<const Real> velocity);
   /// It did when the substep began, when the node was there.
   bool lay_on(const Solid& solid, const Vec3& place) const;

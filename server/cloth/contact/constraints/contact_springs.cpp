@@ -14,6 +14,9 @@ namespace {
 constexpr double kDepth = 1.0 / 32;
 /// A spring bears from so many depths outside of the surface.
 constexpr double kMargin = 2;
+/// Near rest a spring keeps its stiffness while it bears within the margin and is no more than so many times
+/// as stiff as its force asks.
+constexpr double kStiffer = 16;
 /// At most, as a multiple of the links' stiffness at the node; more would cost digits in single precision.
 constexpr double kLinkMultiple = 1;
 /// A body is held by that and this multiple of the node's inertia: it bears far more than the node weighs.
@@ -79,6 +82,22 @@ Vec3 ContactConstraints<Real>::move_of(const Constraint& c, kernels::Components<
 }
 
 template <class Real>
+void ContactConstraints<Real>::stiffen(Constraint& c, const Vec3& moved, double links, double inertia) const {
+  const double least = c.point.mass() / (kDepth * substep_.seconds * substep_.seconds);
+  c.most = kLinkMultiple * links + (c.body ? kBodyMultiple * inertia : least);
+  if (c.body || c.pinched) {
+    c.stiffness = c.most;
+    return;
+  }
+  // Near rest nothing is hit hard: what touches for the second time bears what it bore.
+  const double bore = near_rest_ && c.force_before < 0 ? c.last_force : c.usual_force();
+  const double bears = std::max(bore, c.solved ? c.force_at(moved) : 0);
+  const double asked = bears / depth();
+  const bool keeps = near_rest_ && asked <= kMargin * c.stiffness && c.stiffness <= kStiffer * asked;
+  c.stiffness = std::clamp(keeps ? c.stiffness : asked, least, c.most);
+}
+
+template <class Real>
 void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCouplings<Real>& couplings,
                                       kernels::Components<Real> b, AttachedBodies<Real>& bodies,
                                       const Real* diagonal, double links_stiffness,
@@ -95,10 +114,7 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     const double inertia = c.point.resistance(diagonal);
     const Vec3 moved = move_of(c, move, bodies), slip = c.slip(moved);
     const double holds = c.holds(moved);
-    const double bears = std::max(c.usual_force(), c.solved ? c.force_at(moved) : 0);
-    const double least = c.point.mass() / (kDepth * substep_.seconds * substep_.seconds);
-    c.most = kLinkMultiple * links + (c.body ? kBodyMultiple * inertia : least);
-    c.stiffness = c.body || c.pinched ? c.most : std::clamp(bears / depth(), least, c.most);
+    stiffen(c, moved, links, inertia);
     if (!c.body || !c.solved) c.friction.linearise(slip, holds, c.stiffness, inertia);
     c.solved = true;
     const Eigen::Matrix3d stiffness = stiffness_of(c.normal, c.stiffness, c.friction.rate());
@@ -225,6 +241,7 @@ template double ContactConstraints<float>::Constraint::holds(const Vec3&) const;
 template double ContactConstraints<float>::margin() const;
 template Vec3 ContactConstraints<float>::move_of(const Constraint&, kernels::Components<const float>,
                                                  const AttachedBodies<float>&);
+template void ContactConstraints<float>::stiffen(Constraint&, const Vec3&, double, double) const;
 template void ContactConstraints<float>::add_to(kernels::Blocks<float>, NodeCouplings<float>&,
                                                 kernels::Components<float>, AttachedBodies<float>&,
                                                 const float*, double, const std::vector<double>&,
@@ -251,6 +268,7 @@ template double ContactConstraints<double>::Constraint::holds(const Vec3&) const
 template double ContactConstraints<double>::margin() const;
 template Vec3 ContactConstraints<double>::move_of(const Constraint&, kernels::Components<const double>,
                                                   const AttachedBodies<double>&);
+template void ContactConstraints<double>::stiffen(Constraint&, const Vec3&, double, double) const;
 template void ContactConstraints<double>::add_to(kernels::Blocks<double>, NodeCouplings<double>&,
                                                  kernels::Components<double>, AttachedBodies<double>&,
                                                  const double*, double, const std::vector<double>&,

@@ -7,7 +7,7 @@
 namespace weft::test {
 namespace {
 
-constexpr double kConstraintStep = 0.01, kLinks = 300,
+constexpr double kConstraintStep = 0.01, kLinks = 1e7,
                  kInertia = 1 / (kConstraintStep * kConstraintStep);  // N/m
 
 /// A sheet of 3 x 3 nodes of 1 kg in the plane z = 0, on ground below it; the middle node touches that.
@@ -23,8 +23,8 @@ class OnGround {
   Touch touch() const { return {middle(), kFirstObstacle}; }
   void set_velocity(const Vec3& velocity) { set(sheet_.velocity, 1, 1, velocity); }
   std::vector<Solid>& solids() { return solids_; }
-  void begin() {
-    contacts.begin({touch()}, {}, sheet_, solids_, Substep{0, 1, kConstraintStep}, false, bodies);
+  void begin(bool near_rest = false) {
+    contacts.begin({touch()}, {}, sheet_, solids_, Substep{0, 1, kConstraintStep}, near_rest, bodies);
   }
   /// The middle node's block and right-hand side in the system at its move.
   struct System {
@@ -117,6 +117,28 @@ TEST(ContactConstraints, AreAsStiffAsWhatTheyBearAsks) {
   EXPECT_EQ(sheet.error({0, 0, kBears / 2}), 0);
   const double most = kLinks + kWeak;
   EXPECT_NEAR(sheet.system_at({0, 0, -1e-3}).block(2, 2), std::min(stiffness, most), 1e-9 * most);
+}
+
+// A stiffness that followed each step's force would do work on the node.
+TEST(ContactConstraints, KeepTheirStiffnessNearRestUnlessTheForceIsQuiteAnother) {
+  // In two steps away from rest the spring, three times as stiff as at first, is pressed by `before` depths,
+  // in the third one near rest by `now`.
+  const auto stiffness_at = [](double before, double now) {
+    OnGround sheet;
+    for (int step = 0; step < 2; ++step) {
+      sheet.begin();
+      sheet.system_at({0, 0, 0});
+      EXPECT_NEAR(sheet.system_at({0, 0, kBears - 3 * kPressed}).block(2, 2), 3 * kWeak, 1e-9 * kWeak);
+      sheet.finish({0, 0, kBears - before * kPressed});
+    }
+    sheet.begin(true);
+    sheet.system_at({0, 0, 0});
+    return sheet.system_at({0, 0, kBears - now * kPressed}).block(2, 2);
+  };
+  EXPECT_NEAR(stiffness_at(1, 0.5), 3 * kWeak, 1e-9 * kWeak) << "half of the force";
+  EXPECT_NEAR(stiffness_at(1, 1.9), 3 * kWeak, 1e-9 * kWeak) << "within the margin";
+  EXPECT_NEAR(stiffness_at(1, 2.1), 2.1 * 3 * kWeak, 1e-9 * kWeak) << "beyond it";
+  EXPECT_NEAR(stiffness_at(0.05, 0.05), kWeak, 1e-9 * kWeak) << "a twentieth of what it is made for";
 }
 
 TEST(ContactConstraints, LetGoOfWhatPullsAndHoldItAgainWhenItPresses) {
