@@ -169,5 +169,5 @@ test('a reset ends it: the hand is empty, and nothing goes wrong', async () => {
   await page.mouse.move(...await onPage([0, 1.1, 0]), {steps: 6});
   await page.mouse.up();
   await page.keyboard.up('Shift');
-  assert.equal(await page.locator('.toast').count(), 0);
+  assert.equal(await page.locator('.toast').count(), 0, (await page.locator('.toast').allTextContents()).join('|'));
 });
