@@ -26,7 +26,7 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 /// what it holds then is far more than the error that a solve may leave, so that the normal force, by which
 /// friction goes, is known. It bears within a margin outside of the surface: what is not in a solid need not
 /// be put out of it after the step, which would strain the cloth's springs. Near rest it keeps its stiffness
-/// unless its force becomes quite another: one that followed each step's force would do work by that, and
+/// as long as it bears within the margin: one that followed each step's force would do work by that, and
 /// shake the cloth for ever.
 ///
 /// A solid that yields hangs on its nodes by these springs: it is one of the system's bodies, stepped by
@@ -160,7 +160,7 @@ class ContactConstraints {
     double led_out;                  ///< of which it is led out of the solid, where it began, m
     Vec3 solid_move;                 ///< in the substep if nothing bends its way, m
     double width;                    ///< of the solid, its inner radius, m
-    double stiffness = 0, most = 0;  ///< as it is, at first as it was, and as it may become, N/m
+    double stiffness = 0, most = 0;  ///< as it is or last was, and may become, N/m
     double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
     double last_force = -1, force_before = -1;

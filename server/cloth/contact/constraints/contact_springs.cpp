@@ -14,9 +14,6 @@ namespace {
 constexpr double kDepth = 1.0 / 32;
 /// A spring bears from so many depths outside of the surface.
 constexpr double kMargin = 2;
-/// Near rest a spring keeps its stiffness while it bears within the margin and is no more than so many times
-/// as stiff as its force asks.
-constexpr double kStiffer = 16;
 /// At most, as a multiple of the links' stiffness at the node; more would cost digits in single precision.
 constexpr double kLinkMultiple = 1;
 /// A body is held by that and this multiple of the node's inertia: it bears far more than the node weighs.
@@ -89,12 +86,9 @@ void ContactConstraints<Real>::stiffen(Constraint& c, const Vec3& moved, double 
     c.stiffness = c.most;
     return;
   }
-  // Near rest nothing is hit hard: what touches for the second time bears what it bore.
-  const double bore = near_rest_ && c.force_before < 0 ? c.last_force : c.usual_force();
-  const double bears = std::max(bore, c.solved ? c.force_at(moved) : 0);
-  const double asked = bears / depth();
-  const bool keeps = near_rest_ && asked <= kMargin * c.stiffness && c.stiffness <= kStiffer * asked;
-  c.stiffness = std::clamp(keeps ? c.stiffness : asked, least, c.most);
+  const double bears = std::max(c.usual_force(), c.solved ? c.force_at(moved) : 0);
+  const bool keeps = near_rest_ && bears <= margin() * c.stiffness;
+  c.stiffness = std::clamp(keeps ? c.stiffness : bears / depth(), least, c.most);
 }
 
 template <class Real>
