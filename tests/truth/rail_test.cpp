@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cloth/sheet/motion.h"
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
 
@@ -76,6 +77,28 @@ TEST_P(SmoothRail, AStripSlidesAsAChainOverAPulley) {
   EXPECT_NEAR(begin - lower_end(), way, first_order ? last_step : 0.1 * way) << way << " m";
   EXPECT_NEAR(simulation.cloths()[0].particles().position_at(kCellsOver, 4).x(), -kRail, 0.1 * way)
       << "it hangs where it hung";
+}
+
+// A smooth rail that stands still does no work, whatever slides over it. What presses the strip as it is laid
+// on settles in the first steps; then the books hold its work at nothing, to 3 % of the motion's energy.
+TEST(SmoothRailThatStands, DoesNoWork) {
+  for (const double rate : {15.0, 30.0, 60.0}) {
+    for (const IntegratorDescription& method :
+         {IntegratorDescription(BackwardEulerDescription{}), IntegratorDescription(Bdf2Description{})}) {
+      SimulationDescription scene = strip_over_rail(method);
+      scene.time_step = 1 / rate;
+      Simulation<float> simulation(scene);
+      double took = 0;
+      const double begin = 0.06, end = 0.25;  // s
+      for (int step = 0; step < end * rate; ++step) {
+        simulation.step();
+        if (step > begin * rate) took += simulation.last_advance(0).contact_took;
+      }
+      const double moving = motion_energy(simulation.cloths()[0].particles(), true).inner;
+      EXPECT_GT(moving, 0.005) << "J; it slides";
+      EXPECT_NEAR(took, 0, 0.03 * moving) << rate << " Hz, of " << moving << " J";
+    }
+  }
 }
 
 /// Hangs that friction of `holding` just keeps from sliding: over a drum the tension grows by dT = (mu T + w

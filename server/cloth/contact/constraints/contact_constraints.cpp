@@ -99,6 +99,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
   const double bears_from = solid.yields() ? 0 : margin();
+  const double gap = solid.gap(place, substep_.from);
   Constraint made{touch,
                   point,
                   std::nullopt,
@@ -106,10 +107,11 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
                   normal,
                   normal.dot(way) - surface.distance + bears_from,
                   0,
+                  normal.dot(slip) - (surface.distance - gap),
                   move,
                   inner_radius(solid.shape)};
   // What meets it anew is led out to where the spring begins to bear, at no speed.
-  made.led_out = std::max(0.0, (held ? 0 : bears_from) - solid.gap(place, substep_.from));
+  made.led_out = std::max(0.0, (held ? 0 : bears_from) - gap);
   made.coefficient = solid.friction;
   const double pressed_in = solid.yields() ? 0 : std::max(0.0, made.distance - normal.dot(way));
   made.friction = SurfaceFriction(across(slip, normal), solid.friction * pressed_in);

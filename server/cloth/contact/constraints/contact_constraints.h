@@ -156,10 +156,11 @@ class ContactConstraints {
     std::optional<int> body;  ///< index
     Vec3 arm;                 ///< where the node hangs on the body, from its centre, m; 0: by it
     Vec3 normal;
-    double distance;                 ///< that the node must move along the normal, m
-    double led_out;                  ///< of which it is led out of the solid, where it began, m
-    Vec3 solid_move;                 ///< in the substep if nothing bends its way, m
-    double width;                    ///< of the solid, its inner radius, m
+    double distance;  ///< that the node must move along the normal, m
+    double led_out;   ///< of which it is led out of the solid, where it began, m
+    double curves;    ///< of the point's way along the normal, what the surface itself curves by, m
+    Vec3 solid_move;  ///< in the substep if nothing bends its way, m
+    double width;     ///< of the solid, its inner radius, m
     double stiffness = 0, most = 0;  ///< as it is or last was, and may become, N/m
     double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
@@ -172,8 +173,8 @@ class ContactConstraints {
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(touch, point, body, arm, normal, distance, led_out, solid_move, width, stiffness, most, force,
-              last_force, force_before, released, pinched, solved, coefficient, friction);
+      archive(touch, point, body, arm, normal, distance, led_out, curves, solid_move, width, stiffness, most,
+              force, last_force, force_before, released, pinched, solved, coefficient, friction);
     }
     /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
     double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }

@@ -193,18 +193,22 @@ auto ContactConstraints<Real>::work(kernels::Components<const Real> move, const 
                                     const AttachedBodies<Real>& bodies) const -> Work {
   Work work;
   for (const Constraint& c : constraints_) {
-    Vec3 way = move_of(c, move, bodies) - c.solid_move;
+    const Vec3 way = move_of(c, move, bodies) - c.solid_move;
     const Vec3 was = c.point.moved_by(velocities.start);
+    Vec3 slip = across(way, c.normal);
     if (c.lasts()) {
+      // The normal is that of the step's end: what goes along a curved surface has a part along it that no
+      // force has worked on.
+      work.taken -= c.force * (c.normal.dot(way) - c.curves);
       if (velocities.lead != nullptr)
-        way -= double(velocities.lead[c.touch.node]) * (c.point.moved_by(velocities.end) - was);
-      work.taken -= c.force * c.normal.dot(way);
+        slip -=
+            double(velocities.lead[c.touch.node]) * across(c.point.moved_by(velocities.end) - was, c.normal);
     } else if (c.force > 0) {
       const double approach =
           std::max(0.0, c.normal.dot(c.solid_move) / substep_.seconds - c.normal.dot(was));
       work.taken += c.point.mass() * approach * approach / 2;
     }
-    work.taken -= c.friction.grip().dot(across(way, c.normal));
+    work.taken -= c.friction.grip().dot(slip);
     work.led_out += c.force * c.led_out;
   }
   return work;
