@@ -1,4 +1,5 @@
-// A page of Firefox's by WebDriver BiDi itself: Playwright has no way to put down two fingers there, and shares its session with nobody.
+// A page of Firefox's by WebDriver BiDi itself: Playwright has no way to put down two fingers there, waits between the movements of
+// its mouse, knows no dark mode, and shares its session with nobody.
 import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
@@ -14,7 +15,7 @@ const kPreferences = {
 };
 const kMoveMs = 20;  // a movement of fingers
 
-/** The part of Playwright's page that tests with fingers need, and `touch`. */
+/** The part of Playwright's page that tests with hands need, `touch` and `flick`. */
 export class BidiPage {
   #socket;
   #context;
@@ -24,12 +25,15 @@ export class BidiPage {
   /** What the page logs that it must not do. @type {string[]} */
   errors = [];
 
-  /** Starts a Firefox with one page of so many CSS pixels. @param {string} address @param {{width: number, height: number}} viewport */
-  static async open(address, viewport) {
+  /**
+   * Starts a Firefox with one page of so many CSS pixels.
+   * @param {string} address @param {{width: number, height: number}} viewport @param {Object<string, number>} preferences of its own
+   */
+  static async open(address, viewport, preferences = {}) {
     const page = new BidiPage(), screen = await startScreen();
     const {executablePath, env, firefoxUserPrefs} = firefox(screen.display);
     const profile = mkdtempSync(join(tmpdir(), 'weft-firefox-'));
-    writeFileSync(join(profile, 'user.js'), Object.entries({...firefoxUserPrefs, ...kPreferences})
+    writeFileSync(join(profile, 'user.js'), Object.entries({...firefoxUserPrefs, ...kPreferences, ...preferences})
       .map(([name, value]) => `user_pref(${JSON.stringify(name)}, ${JSON.stringify(value)});\n`).join(''));
     const browser = spawn(executablePath, ['--remote-debugging-port', '0', '--profile', profile, '--no-remote'], {env, stdio: ['ignore', 'ignore', 'pipe']});
     page.close = async () => {
@@ -84,6 +88,15 @@ export class BidiPage {
       })),
     });
     this.#fingers = type === 'touchEnd' ? 0 : points.length;
+  }
+
+  /** The mouse, pressed at the first point, moved through the others as fast as the machine brings it, and let go. @param {number[][]} points CSS pixels */
+  async flick(points) {
+    const [start, ...ways] = points.map(([x, y]) => ({type: 'pointerMove', x: Math.round(x), y: Math.round(y), duration: 0}));
+    await this.#ask('input.performActions', {
+      context: this.#context,
+      actions: [{type: 'pointer', id: 'mouse', actions: [start, {type: 'pointerDown', button: 0}, ...ways, {type: 'pointerUp', button: 0}]}],
+    });
   }
 
   #ask(method, params) {

@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {setTimeout as sleep} from 'node:timers/promises';
-import {kNeedsChromium, openScene, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
+import {openByHand} from './hands.mjs';
+import {openScene, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
 
 // By their places in scenes/bodies.json.
 const kBox = 1, kCapsule = 2, kShelf = 3, kHidden = 4;
@@ -96,27 +97,19 @@ test('a box dragged by the mouse follows it, falls when it is let go, and comes 
   assert.deepEqual((await stats(page)).eye, eye);
 });
 
-test('a body let go in motion is thrown', kNeedsChromium, async () => {
+test('a body let go in motion is thrown', async () => {
   await startAgain();
-  const [x, y] = await onPage(await placeOf(kBox));
-  // A flick of 12 movements 10 ms apart, by times of its own: however late a busy machine brings them, the hand was as fast.
-  const hand = await page.context().newCDPSession(page);
-  const begin = Date.now() / 1000;
-  const event = (type, i) => hand.send('Input.dispatchMouseEvent', {
-    type, x: x + 8 * i, y: y - 8 * i, button: 'left', buttons: type === 'mouseReleased' ? 0 : 1, clickCount: 1, timestamp: begin + 0.01 * i,
-  });
-  await page.mouse.move(x, y);
-  await event('mousePressed', 0);
-  for (let i = 1; i <= 12; ++i) await event('mouseMoved', i);
-  const released = await placeOf(kBox);
-  await event('mouseReleased', 12);
-  // 8 pixels in 10 ms are some 5 m/s: it flies on for as long again as the hand had gone, upwards, too.
-  const metre = (await onPage([1, 0, 0]))[0] - (await onPage([0, 0, 0]))[0];
+  const {page: other, flick, errors} = await openByHand(server, 'bodies', {width: 900, height: 640});
+  const from = await placeOf(kBox), [x, y] = await onPage(from, other);
+  await flick(Array.from({length: 7}, (_, i) => [x + 16 * i, y - 16 * i]));
+  // 16 pixels in 10 ms are some 10 m/s: it flies on for as long again as the hand had gone, upwards, too.
+  const metre = (await onPage([1, 0, 0], other))[0] - (await onPage([0, 0, 0], other))[0];
   const drawn = 96 / metre;
   await until(page, ([index, [fromX, fromY], way]) => {
     const [atX, atY] = weft.stats.obstacles[index];
     return atX > fromX + 2 * way && atY > fromY + way;
-  }, [kBox, released, drawn]);
+  }, [kBox, from, drawn]);
+  assert.deepEqual(errors, []);
 });
 
 test('an obstacle without a mass stays where it is put', async () => {
@@ -151,17 +144,15 @@ test('the controls do the same: a place by numbers, a throw for what has a mass'
   await until(page, ([index, height]) => weft.stats.obstacles[index][1] > height + 0.5, [kBox, before]);
 });
 
-test('a finger drags a body on a narrow page, whose controls fit', kNeedsChromium, async () => {
+test('a finger drags a body on a narrow page, whose controls fit', async () => {
   await startAgain();
-  const {page: phone, witness} = await openScene(server, 'bodies', {viewport: {width: 375, height: 720}, hasTouch: true, isMobile: true});
+  const {page: phone, touch, errors} = await openByHand(server, 'bodies', {width: 375, height: 720}, {phone: true});
   const from = (await stats(phone)).obstacles[kCapsule];
   const [x, y] = await onPage(from, phone);
   assert.equal(await obstacleAt([x, y], phone), kCapsule);
   const {eye} = await stats(phone);
-  const finger = await phone.context().newCDPSession(phone);
-  const touch = (type, ...touchPoints) => finger.send('Input.dispatchTouchEvent', {type, touchPoints});
-  await touch('touchStart', {x, y});
-  for (let i = 1; i <= 6; ++i) await touch('touchMove', {x: x + 3 * i, y: y - 15 * i});
+  await touch('touchStart', [x, y]);
+  for (let i = 1; i <= 6; ++i) await touch('touchMove', [x + 3 * i, y - 15 * i]);
   await until(phone, ([index, height]) => weft.stats.obstacles[index][1] > height + 0.3, [kCapsule, from[1]]);
   await rest(kCapsule, phone);
   await touch('touchEnd');
@@ -172,12 +163,18 @@ test('a finger drags a body on a narrow page, whose controls fit', kNeedsChromiu
   await rest(kCapsule);
   const apart = (await placeOf(kCapsule)).map((value, axis) => Math.abs(value - from[axis]));
   assert.ok(Math.max(...apart) > 0.05, 'it was dragged aside, or fell over');
-  await phone.tap('#fold');
+  const fold = await phone.evaluate(() => {
+    const {x, y, width, height} = document.getElementById('fold').getBoundingClientRect();
+    return [x + width / 2, y + height / 2];
+  });
+  await touch('touchStart', fold);
+  await touch('touchEnd');
+  await until(phone, () => document.getElementById('fold').getAttribute('aria-expanded') === 'true');
   const wide = await phone.evaluate(() => [...document.querySelectorAll('#controls *')]
     .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().right > innerWidth + 0.5).map((element) => element.id || element.tagName));
   assert.deepEqual(wide, []);
   assert.equal(await phone.evaluate(() => document.documentElement.scrollWidth), 375);
-  assert.deepEqual(witness.errors, []);
+  assert.deepEqual(errors, []);
 });
 
 for (const preset of Object.keys(kFlying)) {

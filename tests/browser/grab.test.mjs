@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {kNeedsChromium, openScene, skip, startServer, stats, until} from './harness.mjs';
+import {openByHand} from './hands.mjs';
+import {openScene, skip, startServer, stats, until} from './harness.mjs';
 
 // A hand's spring has the frequency 20 rad/s for the whole cloth: hung from it alone the cloth hangs g / 20^2 below (grab.h).
 const kBelow = 9.81 / 20 ** 2;
@@ -18,7 +19,7 @@ before(async () => {
  * Where the cloth is at (u, v), m. At level 4 a patch of 1/16 of the cloth has the reach of a cell, so that its mean is what lies
  * between the four nodes around.
  */
-const place = ({u, v}) => page.evaluate(([atU, atV]) => {
+const place = ({u, v}, of = page) => of.evaluate(([atU, atV]) => {
   const positions = weft.positions(), cells = 16, cols = cells + 1;
   const [column, row] = [atU, atV].map((share) => Math.min(cells - 1, Math.floor(share * cells)));
   const right = atU * cells - column, down = atV * cells - row;
@@ -27,15 +28,15 @@ const place = ({u, v}) => page.evaluate(([atU, atV]) => {
     (1 - down) * ((1 - right) * node(row, column, axis) + right * node(row, column + 1, axis)) +
     down * ((1 - right) * node(row + 1, column, axis) + right * node(row + 1, column + 1, axis)));
 }, [u, v]);
-const onPage = (point) => page.evaluate((at) => weft.toPage(at), point);
+const onPage = (point, of = page) => of.evaluate((at) => weft.toPage(at), point);
 /** Waits until the cloth's highest node is above (or below) a height, m. */
 const rises = (height) => until(page, (least) => Math.max(...weft.positions().filter((_, i) => i % 3 === 1)) > least, height);
-const sinks = (height) => until(page, (most) => Math.max(...weft.positions().filter((_, i) => i % 3 === 1)) < most, height);
+const sinks = (height, of) => until(of, (most) => Math.max(...weft.positions().filter((_, i) => i % 3 === 1)) < most, height);
 
 /** Waits until no node has got on by a millimetre in half a second of the scene. */
-async function stillness() {
-  await page.evaluate(() => (window.still = null));
-  await until(page, () => {
+async function stillness(of) {
+  await of.evaluate(() => (window.still = null));
+  await until(of, () => {
     const {time} = weft.stats.lastFrame, positions = weft.positions();
     if (window.still && time - window.still.time < 0.5) return false;
     const before = window.still;
@@ -53,18 +54,18 @@ async function lieDown() {
   await until(page, (old) => weft.stats.lastFrame.epoch > old && weft.stats.cloths[0].centre[1] < 0.02, epoch);
 }
 
-async function expectHanging() {
+async function expectHanging(of = page) {
   await skip(server, 'lying', 10);
-  await stillness();
-  const {hand} = await stats(page);
-  const held = await place(hand);
+  await stillness(of);
+  const {hand} = await stats(of);
+  const held = await place(hand, of);
   const off = [hand.position[0] - held[0], hand.position[1] - kBelow - held[1], hand.position[2] - held[2]];
   assert.ok(Math.hypot(...off) < kNear, `${held} held by a hand at ${hand.position}: ${off} m from ${kBelow} m below it`);
 }
 
-async function expectFallen() {
-  await until(page, () => weft.stats.hand === null);
-  await sinks(0.5);  // in a heap on the floor, from a hand that held it higher
+async function expectFallen(of = page) {
+  await until(of, () => weft.stats.hand === null);
+  await sinks(0.5, of);  // in a heap on the floor, from a hand that held it higher
 }
 
 test('Shift and drag: the cloth hangs from the hand, and falls when it lets go', async () => {
@@ -127,21 +128,24 @@ test('double click with Shift pins the cloth there, again unpins it', async () =
   assert.ok(Math.hypot(...still.map((value, axis) => value - held[axis])) < kNear, `${still} instead of ${held}`);
 });
 
-test('the hand tool does it with a finger, without Shift', kNeedsChromium, async () => {
+test('the hand tool does it with a finger, without Shift', async () => {
   await lieDown();
-  await page.click('#hand');
-  assert.equal(await page.getAttribute('#hand', 'aria-pressed'), 'true');
-  const finger = await page.context().newCDPSession(page);
-  const touch = (type, ...points) => finger.send('Input.dispatchTouchEvent', {type, touchPoints: points.map(([x, y]) => ({x, y}))});
-  const from = await onPage(await place({u: 0.5, v: 0.5}));
-  const to = await onPage([0, 1.1, 0]);
+  const {page: phone, touch, errors} = await openByHand(server, 'lying', {width: 900, height: 640}, {phone: true});
+  const pressed = await phone.evaluate(() => {
+    const tool = document.getElementById('hand');
+    tool.click();
+    return tool.getAttribute('aria-pressed');
+  });
+  assert.equal(pressed, 'true');
+  const from = await onPage(await place({u: 0.5, v: 0.5}, phone), phone);
+  const to = await onPage([0, 1.1, 0], phone);
   await touch('touchStart', from);
-  await until(page, () => weft.stats.hand?.grab);
+  await until(phone, () => weft.stats.hand?.grab);
   for (let i = 1; i <= 6; ++i) await touch('touchMove', from.map((value, axis) => value + ((to[axis] - value) * i) / 6));
-  await expectHanging();
+  await expectHanging(phone);
   await touch('touchEnd');
-  await expectFallen();
-  await page.click('#hand');
+  await expectFallen(phone);
+  assert.deepEqual(errors, []);
 });
 
 test('a window that loses the focus lets go', async () => {

@@ -44,9 +44,6 @@ export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAG
   };
 }
 
-/** For tests whose pointers need times or fingers of their own, which only Chromium's protocol gives. */
-export const kNeedsChromium = {skip: kFirefox && 'by WebDriver a pointer moves in the machine’s own time'};
-
 /** Firefox itself logs a socket that its page closes before it is open, as a page does that is hidden just then. */
 const kFirefoxOwn = /^Firefox can’t establish a connection to |^The connection to ws\S+ was interrupted while the page was loading/;
 

@@ -1,41 +1,21 @@
 // A phone: one finger turns, two zoom and pan, a finger drags what it touches and what is just beside it.
 import assert from 'node:assert/strict';
-import {after, before, test} from 'node:test';
+import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
-import {BidiPage} from './bidi.mjs';
-import {kFirefox} from './browsers.mjs';
-import {openScene, startServer, stats, until} from './harness.mjs';
+import {openByHand} from './hands.mjs';
+import {startServer, stats, until} from './harness.mjs';
 
 const kBox = 1;  // obstacles[1] stands on the floor; it has a mass
 const kFree = [60, 560];  // CSS pixels: floor, far from everything
 const kPhone = {width: 390, height: 844};
 
 let page, touch, errors;
-after(() => kFirefox && page?.close());  // Chromium is closed by the harness
 before(async () => {
   const server = await startServer([fileURLToPath(new URL('scenes/bodies.json', import.meta.url))]);
-  await (kFirefox ? openInFirefox(server) : openInChromium(server));
+  ({page, touch, errors} = await openByHand(server, 'bodies', kPhone, {phone: true}));
   assert.equal(await page.evaluate(() => document.getElementById('fold').getAttribute('aria-expanded')), 'false');  // the panel leaves room for the scene
   await until(page, () => weft.stats.settled || weft.stats.frames > 30);
 });
-
-async function openInChromium(server) {
-  let witness;
-  ({page, witness} = await openScene(server, 'bodies', {viewport: kPhone, hasTouch: true, isMobile: true}));
-  const finger = await page.context().newCDPSession(page);
-  let timestamp = Date.now() / 1000;
-  /** A finger's event, 20 ms after the one before whatever the machine takes: what comes together is told by time. */
-  touch = (type, ...points) => finger.send('Input.dispatchTouchEvent',
-    {type, touchPoints: points.map(([x, y], id) => ({x, y, id})), timestamp: (timestamp += 0.02)});
-  ({errors} = witness);
-}
-
-async function openInFirefox(server) {
-  page = await BidiPage.open(`${server.address}/?quality=low&scene=bodies`, kPhone);
-  ({errors} = page);
-  await until(page, () => window.weft?.stats.connected && weft.stats.cloths.length > 0);
-  touch = (type, ...points) => page.touch(type, points);
-}
 
 const between = (from, to, share) => from.map((value, axis) => value + (to[axis] - value) * share);
 /** Puts fingers down one after the other, moves them together from their first to their second places, and takes them up. */

@@ -100,12 +100,14 @@ bool Cloth<Real>::apply_pending_level() {
     const bool by_area = description_.discretization == Discretization::continuum;
     if (next > level_) {
       split(particles_, particles);
+      ++splits_;
       if (walls_) {
         part_pieces(*torn_, next, *walls_);
         mend_split(walls_->at(next), cell(particles.grid()), particles);
       }
     } else {
       merge(particles_, particles);
+      splits_ = std::max(0, splits_ - 1);
       if (by_area && torn_) merge_torn_momentum(particles_, *torn_, particles);
       if (by_area && !torn_) merge_momentum(particles_, particles);
     }

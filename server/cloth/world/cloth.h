@@ -94,6 +94,9 @@ class Cloth {
   /// Takes hold and lets go of what pins begin and end to hold at `time`, s, when a step begins; the cloth
   /// wakes.
   void change_pins(double time);
+  /// As the first step after a change of level begins: pinned nodes that came with a finer level are lifted
+  /// out of these solids (lift_pins.h), and held there.
+  void lift_new_pins(const std::vector<Solid>& solids);
   void disturb() { disturbed_ = true; }
   /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
   void set_layers(LayerContacts<Real>* layers) {
@@ -228,6 +231,7 @@ class Cloth {
   std::optional<int> pending_level_;
   Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
   Unsettled settled_ = Unsettled::no;    ///< in this step already; again, if it is taken back
+  int splits_ = 0;                       ///< to finer levels since a step began
   double held_ = 0;                      ///< J, by springs and plate before the last change of level
   double had_ = 0;                       ///< J, all energy then
   bool begins_ = false;                  ///< where its description has put it, which no step has seen

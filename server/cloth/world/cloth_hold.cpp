@@ -1,6 +1,8 @@
 /// What holds a cloth: hands and pins.
 #include <algorithm>
+#include <utility>
 
+#include "cloth/levels/lift_pins.h"
 #include "cloth/world/cloth.h"
 
 namespace weft {
@@ -75,6 +77,20 @@ void Cloth<Real>::change_pins(double time) {
 }
 
 template <class Real>
+void Cloth<Real>::lift_new_pins(const std::vector<Solid>& solids) {
+  const int splits = std::exchange(splits_, 0);
+  if (splits == 0 || description_.pins.empty() || solids.empty()) return;
+  const double elastic = elastic_energy(), of_nodes = energy_of_nodes();
+  if (!weft::lift_new_pins(splits, seen(solids), particles_)) return;
+  if (bag_) bag_->join(particles_);
+  // Stretched from chords onto a surface, what is between pins keeps that energy: no motion is to pay for it.
+  held_ += elastic_energy() - elastic;
+  had_ += elastic_energy() - elastic + energy_of_nodes() - of_nodes;
+  hold(pulls());
+  hand_to_guard();
+}
+
+template <class Real>
 std::vector<Vec3> Cloth<Real>::pulls() const {
   std::vector<Vec3> all(description_.pins.size(), Vec3(0, 0, 0));
   if (soft_pins_ == nullptr) return all;
@@ -120,6 +136,7 @@ template const std::vector<Grab>& Cloth<float>::grabs() const;
 template void Cloth<float>::pin(const Vec2&);
 template bool Cloth<float>::unpin(const Vec2&);
 template void Cloth<float>::change_pins(double);
+template void Cloth<float>::lift_new_pins(const std::vector<Solid>&);
 template std::vector<Vec3> Cloth<float>::pulls() const;
 template void Cloth<float>::hold(const std::vector<Vec3>&);
 template void Cloth<float>::set_pins(const std::vector<Vec3>&);
@@ -130,6 +147,7 @@ template const std::vector<Grab>& Cloth<double>::grabs() const;
 template void Cloth<double>::pin(const Vec2&);
 template bool Cloth<double>::unpin(const Vec2&);
 template void Cloth<double>::change_pins(double);
+template void Cloth<double>::lift_new_pins(const std::vector<Solid>&);
 template std::vector<Vec3> Cloth<double>::pulls() const;
 template void Cloth<double>::hold(const std::vector<Vec3>&);
 template void Cloth<double>::set_pins(const std::vector<Vec3>&);

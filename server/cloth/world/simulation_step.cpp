@@ -45,6 +45,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   for (Cloth<Real>& cloth : cloths_) cloth.change_pins(time);
   colliders_.begin_step(time, dt, gravity_, colliders_.may_rest() ? sleepers() : std::vector<Sleeper>(),
                         parts_left);
+  for (Cloth<Real>& cloth : cloths_) cloth.lift_new_pins(colliders_.solids());
   std::vector<PinnedNode> pins;
   for (Cloth<Real>& cloth : cloths_) cloth.add_pins_near(colliders_.solids(), time, dt, pins);
   meet_bodies(pins, dt);
