@@ -44,7 +44,7 @@ export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAG
   };
 }
 
-/** Firefox itself logs a socket that its page closes before it is open, as a page does that is hidden just then. */
+/** Firefox itself logs a socket that its page closes before it is open, as a page does that is hidden just then: as the page's error, or as the console's. */
 const kFirefoxOwn = /^Firefox can’t establish a connection to |^The connection to ws\S+ was interrupted while the page was loading/;
 
 /** Every page opened so far logs here what it must not do. */
@@ -53,8 +53,12 @@ export class Witness {
     this.requests = [];
     this.errors = [];
     page.on('request', (request) => this.requests.push(request.url()));
-    page.on('console', (message) => message.type() === 'error' && !(kFirefox && kFirefoxOwn.test(message.text())) && this.errors.push(message.text()));
-    page.on('pageerror', (error) => this.errors.push(String(error)));
+    page.on('console', (message) => message.type() === 'error' && this.#note(message.text()));
+    page.on('pageerror', (error) => this.#note(String(error)));
+  }
+
+  #note(text) {
+    if (!(kFirefox && kFirefoxOwn.test(text))) this.errors.push(text);
   }
 }
 
