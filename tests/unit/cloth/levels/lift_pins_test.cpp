@@ -39,13 +39,14 @@ Solid rail(double radius, double half) {
   return lying;
 }
 
-const double kHalf = std::sqrt(0.5);
+const double kDiagonal = std::sqrt(0.5);
 
 // On a rail at 0, 45 and 90 degrees, they belong to 22.5 and 67.5 degrees: the chord's normal is the arc's.
 TEST(LiftPins, ThoseOnChordsOfARailGoOntoItsSurface) {
   for (const double depth : {0.0, 0.1}) {
     const double radius = 1 - depth;  // where the coarser level's are held, on the surface or inside
-    Particles<double> sheet = strip({0, radius, 0}, {kHalf * radius, kHalf * radius, 0}, {radius, 0, 0});
+    Particles<double> sheet =
+        strip({0, radius, 0}, {kDiagonal * radius, kDiagonal * radius, 0}, {radius, 0, 0});
     const Particles<double> before = sheet;
     EXPECT_TRUE(lift_new_pins(1, {rail(1, 10)}, sheet));
     each_node(sheet.grid(), [&](int r, int c) {
@@ -60,7 +61,7 @@ TEST(LiftPins, ThoseOnChordsOfARailGoOntoItsSurface) {
 }
 
 TEST(LiftPins, FreeNodesAndThoseOutsideStay) {
-  Particles<double> sheet = strip({0, 1, 0}, {kHalf, kHalf, 0}, {1, 0, 0});
+  Particles<double> sheet = strip({0, 1, 0}, {kDiagonal, kDiagonal, 0}, {1, 0, 0});
   const Particles<double> before = sheet;
   EXPECT_FALSE(lift_new_pins(1, {rail(0.9, 10)}, sheet));  // a chord is 0.924 m from the axis
   each_node(sheet.grid(), [&](int r, int c) { sheet.inverse_mass.at(r, c) = 1; });
@@ -101,7 +102,7 @@ TEST(LiftPins, OutOfOneSolidTheyDoNotStayInAnother) {
 }
 
 /// m: edges of 0.125 m span 15 degrees each, so that a sheet around it is not strained.
-const double kRadius = 0.125 / (2 * std::sin(std::acos(0.0) / 12));
+const double kRailRadius = 0.125 / (2 * std::sin(std::acos(0.0) / 12));
 
 /// 2 m of cloth at level 4, bent along a rail for six cells to either side and hanging from there; it is
 /// pinned in a patch on top, the rest swings.
@@ -116,12 +117,12 @@ SimulationDescription on_a_rail() {
       const double turned = std::acos(0.0) / 6 * std::clamp(c - 8, -6, 6);
       const double hanging = 0.125 * std::max(0, std::abs(c - 8) - 6);
       cloth.nodes.push_back(
-          {kRadius * std::sin(turned), kRadius * std::cos(turned) - hanging, 0.125 * (r - 8)});
+          {kRailRadius * std::sin(turned), kRailRadius * std::cos(turned) - hanging, 0.125 * (r - 8)});
     }
   }
   cloth.velocity = {0.5, 0, 0};
   ObstacleDescription lying;
-  lying.shape = CapsuleDescription{.radius = kRadius, .length = 4, .orientation = kAlongZ};
+  lying.shape = CapsuleDescription{.radius = kRailRadius, .length = 4, .orientation = kAlongZ};
   scene.obstacles = {lying};
   scene.effects = {GravityEffect{}};
   return scene;
@@ -134,12 +135,12 @@ double depth_of_pins(const Simulation<float>& simulation) {
   each_node(particles.grid(), [&](int r, int c) {
     if (particles.inverse_mass.at(r, c) != 0) return;
     const Vec3 at = particles.position_at(r, c);
-    deepest = std::max(deepest, kRadius - std::hypot(at.x(), at.y()));
+    deepest = std::max(deepest, kRailRadius - std::hypot(at.x(), at.y()));
   });
   return deepest;
 }
 
-// A chord of a cell, 0.125 m, lies 0.125^2 / (8 kRadius) = 4.1 mm deep in the rail.
+// A chord of a cell, 0.125 m, lies 0.125^2 / (8 kRailRadius) = 4.1 mm deep in the rail.
 TEST(LiftPins, AFinerLevelOfAClothOnARailShowsNothingOfIt) {
   for (const Discretization rules : {Discretization::continuum, Discretization::paper}) {
     SimulationDescription scene = on_a_rail();
@@ -166,7 +167,7 @@ TEST(LiftPins, NoMotionPaysForIt) {
   cloth.request_level(6);
   ASSERT_TRUE(cloth.apply_pending_level());
   const double kinetic = kinetic_energy(cloth.particles()), elastic = cloth.elastic_energy();
-  const std::vector<Solid> solids{rail(kRadius, 2)};
+  const std::vector<Solid> solids{rail(kRailRadius, 2)};
   cloth.lift_new_pins(solids);
   if (cloth.unsettled(solids)) cloth.settle_down(solids, simulation.time());
   EXPECT_GT(cloth.elastic_energy() - elastic, kinetic);
@@ -183,7 +184,7 @@ TEST(LiftPins, ThoseOnAPathGoOnFromWhereTheyWereLifted) {
   simulation.request_level(0, 6);
   simulation.step();
   const Vec3 at = simulation.cloths()[0].particles().position_at(32, 34);
-  EXPECT_NEAR(std::hypot(at.x(), at.y() - 0.6 * dt), kRadius, 1e-6);
+  EXPECT_NEAR(std::hypot(at.x(), at.y() - 0.6 * dt), kRailRadius, 1e-6);
 }
 
 TEST(LiftPins, AStateThatIsSavedBetweenLevelAndStepGoesOnToTheSameBits) {
