@@ -85,6 +85,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       report.contact_seconds += seconds(Clock::now() - moved);
     }
     forces.join(particles);
+    if (forces.sheet->damped()) find_way(forces);  // with what the last iteration has added
     memory_->ledger.count_work(
         particles, forces,
         {state_->start, state_->start_velocity, forces.sheet->damped() ? &state_->way : nullptr,
@@ -210,14 +211,20 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
 }
 
 template <class Real>
-void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<Real>& forces) {
+void Implicit<Real>::find_way(const Forces<Real>& forces) {
   State& s = *state_;
   const kernels::Components<Real> way = kernels::components(s.way);
-  copy<Real>(s.move, way, particles.grid().size());
+  copy<Real>(s.move, way, s.system.grid().size());
   const double end = forces.context.time;
   forces.for_each_pin_way(end - s.h, end,
                           [&](std::size_t node, const Vec3& moved) { add<Real>(way, node, moved); });
-  forces.sheet->add_damping_of_way(particles.position, way, s.h, s.force);
+}
+
+template <class Real>
+void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<Real>& forces) {
+  find_way(forces);
+  forces.sheet->add_damping_of_way(particles.position, kernels::components(state_->way), state_->h,
+                                   state_->force);
 }
 
 template <class Real>

@@ -133,6 +133,8 @@ class Implicit final : public Integrator<Real> {
   void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
+  /// What the sheet's dampers go by: the nodes' moves so far, and the ways of pins.
+  void find_way(const Forces<Real>& forces);
   /// Adds the sheet's damping, by the nodes' moves so far, to the forces.
   void add_damping(const Particles<Real>& particles, const Forces<Real>& forces);
   struct NewtonReport {
