@@ -45,6 +45,7 @@ template <class Real>
 bool lift_new_pins(int splits, const std::vector<Solid>& solids, Particles<Real>& particles) {
   const int stride = 1 << splits;
   std::vector<PlacedShape> shapes;
+  shapes.reserve(solids.size());
   for (const Solid& solid : solids) shapes.push_back(solid.placed(0));
   bool any = false;
   const auto lift = [&](int row, int col) {
