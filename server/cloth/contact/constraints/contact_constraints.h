@@ -45,8 +45,12 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 ///
 /// A point between nodes (points_between) is held as a node is, by a spring that couples its nodes.
 ///
-/// A tangent plane stands for its solid only as far as that is wide (kSlidOff): a node that is drawn along it
-/// past the solid's side has slid off, and is let go.
+/// A tangent plane stands for its solid only as far as that is wide (is_off_side): a node that is drawn along
+/// it past the solid's side has slid off, and is let go.
+///
+/// A node must begin on the plane's outer side, or the plane pushes it on past where it came from, which does
+/// work. So the plane is that of the surface next to the way's end only if the surface turns but little from
+/// the way's begin until there (kTurned); else the one where the way enters, or where the node lies.
 template <class Real>
 class ContactConstraints {
  public:
@@ -194,6 +198,10 @@ class ContactConstraints {
   /// To which what usually presses a contact's spring presses it, and from where it bears, m.
   double depth() const;
   double margin() const;
+  /// The plane that holds what goes from `place` to `end`, next to which the surface is `near`: as seen from
+  /// the end. None if that passes the solid by.
+  std::optional<Surface> plane_for(const Solid& solid, const Surface& near, const Vec3& place,
+                                   const Vec3& end) const;
   /// `place` is the point's when the substep begins, `way` its move that `surface` was looked up for.
   Constraint held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                      const Surface& surface, const Vec3& place, const Vec3& way) const;

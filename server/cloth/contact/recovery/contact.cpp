@@ -24,9 +24,8 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     const double sweep = sweep_of(solid, substep);
     const bool fast = longest + sweep > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    const double grazing = solid.yields_turning() ? kSlowMove * inner_radius(solid.shape) : 0;
-    moving.push_back(
-        {&solid, solid.placed(substep.to), move, sweep, fast, grazing, solid.velocity, solid.spin, substep});
+    moving.push_back({&solid, solid.placed(substep.to), move, sweep, fast,
+                      kSlowMove * inner_radius(solid.shape), solid.velocity, solid.spin, substep});
   }
   const Sweep sweep{substep.from, substep.to, reach};
   std::vector<TileSolidPair> pairs = broad_phase_.find_pairs(particles.position, solids, sweep);

@@ -155,12 +155,12 @@ class Contact {
                    std::vector<Touch>& found);
 
   /// Fills arrivals_ with the free nodes that pass the surface of a solid that is `sought` on their ways from
-  /// `position` to `ends`, the `longest` of them so long, m. `way_of(value)` is one's way, where value(field)
-  /// is what a field has there.
+  /// `position` to `ends`, the `longest` of them so long, m, as seen from the solid longer than this `share`
+  /// of its inner radius. `way_of(value)` is one's way, where value(field) is what a field has there.
   template <class Ends, class Way, class Sought>
   void find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position, const Ends& ends,
-                     double longest, Way way_of, const std::vector<Solid>& solids, const Substep& substep,
-                     Sought sought);
+                     double longest, double share, Way way_of, const std::vector<Solid>& solids,
+                     const Substep& substep, Sought sought);
 
   /// Those between nodes that are near the last pairs' solids (points_between).
   std::vector<NearPoint> points_near(const Particles<Real>& particles, const VectorField<Real>& position,

@@ -85,7 +85,7 @@ const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& partic
   const double longest =
       h * std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
   find_arrivals(
-      particles, particles.position, Way<Real>::by(particles.velocity, h), longest,
+      particles, particles.position, Way<Real>::by(particles.velocity, h), longest, 0,
       [&](const auto& value) { return Vec3(h * value(velocity)); }, solids, substep, sought);
   return arrivals_;
 }
@@ -105,15 +105,15 @@ const std::vector<Arrival>& Contact<Real>::passed(const Particles<Real>& particl
   const kernels::Components<const Real> from = kernels::components(start),
                                         to = kernels::components(particles.position);
   find_arrivals(
-      particles, start, ends, longest, [&](const auto& value) { return Vec3(value(to) - value(from)); },
-      solids, substep, is_fast);
+      particles, start, ends, longest, kSlowMove,
+      [&](const auto& value) { return Vec3(value(to) - value(from)); }, solids, substep, is_fast);
   return arrivals_;
 }
 
 template <class Real>
 template <class Ends, class Way, class Sought>
 void Contact<Real>::find_arrivals(const Particles<Real>& particles, const VectorField<Real>& position,
-                                  const Ends& ends, double longest, Way way_of,
+                                  const Ends& ends, double longest, double share, Way way_of,
                                   const std::vector<Solid>& solids, const Substep& substep, Sought sought) {
   const kernels::Components<const Real> nodes = kernels::components(position);
   const Sweep sweep{substep.from, substep.to, longest};
@@ -124,6 +124,8 @@ void Contact<Real>::find_arrivals(const Particles<Real>& particles, const Vector
     Vec3 begin = place + solid.at(substep.to) - solid.at(substep.from);
     if (solid.turns()) begin = place + solid.move_of(place, substep.from, substep.to);
     const Vec3 end = place + way;
+    const double shortest = share * inner_radius(solid.shape);
+    if ((end - begin).squaredNorm() < shortest * shortest) return;
     const PlacedShape shape = solid.placed(substep.to);
     const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
     if (!hit) return;

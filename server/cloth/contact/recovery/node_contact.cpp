@@ -116,7 +116,7 @@ auto NodeContact<Real>::first_meeting(const MovingSolid& moving) const -> std::o
 template <class Real>
 bool NodeContact<Real>::slides_off(const MovingSolid& moving) const {
   if (!std::binary_search(not_held_.begin(), not_held_.end(), touch(*moving.solid))) return false;
-  return !moving.shape.may_touch(position_, kSlidOff * inner_radius(moving.shape.shape));
+  return is_off_side(moving.shape, position_);
 }
 
 /// Where the node's way meets a fast solid: it stays at the surface from there on, and slides.
