@@ -11,13 +11,9 @@ std::string LiveScene::save_service() const {
   state.epoch = epoch_;
   state.paused = paused_;
   state.waiting_steps = waiting_steps_;
-  state.effects = effects_;
-  state.effects_off = effects_off_;
-  state.materials = materials_;
-  state.recompose = recompose_;
   state.wish = quality_.wished();
-  state.put = put_;
-  state.usual_work = usual_work_;
+  composition_.save(state);
+  put_bodies_.save(state);
   state.held.assign(lost_.begin(), lost_.end());
   for (const Seat& seat : seats_) {
     if (!seat.grabs.empty()) state.held.push_back({seat.token, seat.grabs});
@@ -36,18 +32,13 @@ void LiveScene::go_on_from(std::string_view state, std::string_view service, Tim
   epoch_ = then.epoch + 1;
   paused_ = then.paused;
   waiting_steps_ = then.waiting_steps;
-  effects_ = std::move(then.effects);
-  effects_off_ = std::move(then.effects_off);
-  put_ = std::move(then.put);
-  for (PutBody& body : put_) body.viewer = 0;  // nobody who is here
-  usual_work_ = std::move(then.usual_work);
+  composition_.load(then);
+  put_bodies_.load(then);
   for (HeldSeat& seat : then.held) lost_.push_back({std::move(seat), until});
-  if (then.materials.size() == materials_.size()) materials_ = std::move(then.materials);
-  recompose_ = then.recompose;
   release_unheld();
   quality_.go_on_with(then.wish);
   study_outdated();
-  find_bounds();
+  sight_.find_bounds(simulation_.cloths());
   state_changed();
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cloth/sheet/diagnostics.h"
 #include "host/random_name.h"
 #include "host/scene_messages.h"
 #include "host/tuning.h"
@@ -27,19 +26,15 @@ LiveScene::LiveScene(scene::Scene scene, const protocol::Limits& limits,
       limits_(limits),
       recorded_(scene_.simulation, playing),
       quality_(playing ? scene::Quality{} : scene_.quality, scene_.simulation.integrator),
-      effects_(scene_.simulation.effects) {
-  for (const Cloth<float>& cloth : simulation_.cloths()) {
-    finest_sendable_.push_back(finest_sendable_level(cloth.description().base_cells, limits_.frame_bytes));
-    materials_.push_back(cloth.description().material);
-  }
+      sight_(scene_.simulation, limits_.frame_bytes),
+      composition_(scene_.simulation) {
   frame_stride_ =
       std::max(1, static_cast<int>(std::lround(1.0 / (kFrameRate * scene_.simulation.time_step))));
-  unseen_steps_ = std::max(1, static_cast<int>(std::lround(kUnseenTime / scene_.simulation.time_step)));
   if (plays()) {
-    take_over_played();
+    composition_.follow(simulation_);
     told_ = told();
   }
-  find_bounds();
+  sight_.find_bounds(simulation_.cloths());
   find_range();
   encoder_.capture(simulation_, {});
 }
@@ -54,10 +49,11 @@ void LiveScene::add_viewer(std::shared_ptr<Viewer> viewer, std::uint64_t visit) 
   seat.number = ++seats_made_;
   seat.token = random_name(kTokenDigits);
   seat.distance = scene_.camera_distance;
-  look(seat);
-  seat.viewer->send(
-      visit, make_text(scene_text(scene_, simulation_, {epoch_, paused_, effects_off_, effects_, materials_},
-                                  seat)));
+  sight_.look(seat);
+  seat.viewer->send(visit, make_text(scene_text(scene_, simulation_,
+                                                {epoch_, paused_, composition_.effects_off(),
+                                                 composition_.effects(), composition_.materials()},
+                                                seat)));
   for (const GuardLog::Notice& notice : guard_.standing())
     seat.viewer->send(visit, make_text(protocol::notice_text(notice.code, notice.message)));
   seats_.push_back(std::move(seat));
@@ -88,58 +84,17 @@ void LiveScene::release_lost(TimePoint now) {
   });
 }
 
-void LiveScene::look(Seat& seat, int steps) {
-  const LevelPolicy& policy = scene_.simulation.level_policy;
-  const std::size_t cloths = simulation_.cloths().size();
-  const bool first = seat.policy_levels.empty();
-  seat.distances.resize(cloths);
-  seat.policy_levels.resize(cloths);
-  seat.levels.resize(cloths);
-  seat.steps_unseen.resize(cloths, 0);
-  for (std::size_t i = 0; i < cloths; ++i) {
-    const double distance = seat.eye ? (*seat.eye - bounds_[i].centre).norm() : seat.distance;
-    const int level = first ? policy.level_at(distance) : policy.level_at(distance, seat.policy_levels[i]);
-    const ClothDescription& cloth = scene_.simulation.cloths[i];
-    seat.distances[i] = distance;
-    seat.policy_levels[i] = level;
-    seat.levels[i] = std::min(std::clamp(level, cloth.min_level, cloth.max_level), finest_sendable_[i]);
-    seat.steps_unseen[i] = sees(seat, i) ? 0 : std::min(seat.steps_unseen[i] + steps, unseen_steps_ + 1);
-    if (lost(seat, i)) seat.levels[i] = std::min(cloth.min_level, seat.levels[i]);
-  }
-}
-
-bool LiveScene::sees(const Seat& seat, std::size_t cloth) const {
-  const Relevance& relevance = scene_.simulation.cloths[cloth].relevance;
-  if (relevance.unseen == Relevance::Unseen::step) return true;
-  const BoundingSphere& bounds = bounds_[cloth];
-  return seat.distances[cloth] - bounds.radius <= relevance.far && (!seat.cone || seat.cone->touches(bounds));
-}
-
-bool LiveScene::unseen(std::size_t cloth) const {
-  const bool all = nobody_placed();
-  return std::all_of(seats_.begin(), seats_.end(),
-                     [&](const Seat& seat) { return !(all || seat.placed) || lost(seat, cloth); });
-}
-
-bool LiveScene::nobody_placed() const {
-  return std::none_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.placed; });
-}
-
 void LiveScene::request_levels() {
   if (seats_.empty() || plays()) return;
-  std::vector<int> wanted(simulation_.cloths().size(), 0);
-  const bool all = nobody_placed();
-  for (const Seat& seat : seats_) {
-    if (!all && !seat.placed) continue;
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], seat.levels[i]);
-  }
+  const std::vector<int> wanted = sight_.wanted_levels(seats_);
   quality_.want_level(*std::max_element(wanted.begin(), wanted.end()));
   use_chosen_integrator();
   const int cap = quality_.level_cap().value_or(kMaxLevel);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Cloth<float>& cloth = simulation_.cloths()[i];
     // One that rests keeps its level, and so all it has.
-    const bool rests = cloth.description().relevance.unseen == Relevance::Unseen::sleep && unseen(i);
+    const bool rests =
+        cloth.description().relevance.unseen == Relevance::Unseen::sleep && sight_.unseen(seats_, i);
     if (cloth.resting() != rests) recorded_.run(command::SetResting{i, rests});
     if (rests) continue;
     const int finest = std::min(wanted[i], cap);
@@ -156,10 +111,7 @@ void LiveScene::use_chosen_integrator() {
 
 SimulationDescription LiveScene::studied() const {
   SimulationDescription description = scene_.simulation;
-  description.effects = effects_;
-  std::erase_if(description.effects,
-                [&](const EffectDescription& effect) { return is_off(name_of(effect)); });
-  for (std::size_t i = 0; i < materials_.size(); ++i) description.cloths[i].material = materials_[i];
+  composition_.put_into(description);
   const Colliders& colliders = simulation_.colliders();
   for (std::size_t i = 0; i < description.balls.size(); ++i) {
     const Ball* ball = colliders.find(static_cast<BallId>(i + 1));  // as long as nobody took it away
@@ -170,23 +122,14 @@ SimulationDescription LiveScene::studied() const {
   return description;
 }
 
-json LiveScene::composition() const {
-  json all{{"off", effects_off_},
-           {"parameters", parameters_json(effects_)},
-           {"materials", materials_json(materials_, effects_)}};
+json LiveScene::studied_json() const {
+  json all{{"off", composition_.effects_off()},
+           {"parameters", parameters_json(composition_.effects())},
+           {"materials", materials_json(composition_.materials(), composition_.effects())}};
   const SimulationDescription now = studied();
   for (const BallDescription& ball : now.balls) all["balls"].push_back(ball.friction);
   for (const ObstacleDescription& obstacle : now.obstacles) all["obstacles"].push_back(obstacle.friction);
   return all;
-}
-
-bool LiveScene::is_off(std::string_view effect) const {
-  return std::find(effects_off_.begin(), effects_off_.end(), effect) != effects_off_.end();
-}
-
-void LiveScene::composition_changed(Recompose what) {
-  recompose_ = std::max(recompose_, what);
-  study_outdated();
 }
 
 void LiveScene::study_outdated() {
@@ -208,13 +151,13 @@ void LiveScene::take_study(StudyOutcome outcome) {
 bool LiveScene::wants_step() const { return !seats_.empty() && (!paused_ || waiting_steps_ > 0); }
 
 void LiveScene::step() {
-  for (Seat& seat : seats_) look(seat, 1);
+  for (Seat& seat : seats_) sight_.look(seat, 1);
   if (plays()) {
     play_step();
   } else {
     simulate_step();
   }
-  find_bounds();
+  sight_.find_bounds(simulation_.cloths());
   const bool asked_for = waiting_steps_ > 0 && --waiting_steps_ == 0;
   state_newer_ = true;
   if (asked_for || simulation_.step_count() % static_cast<std::uint64_t>(frame_stride_) == 0)
@@ -223,11 +166,11 @@ void LiveScene::step() {
 
 void LiveScene::simulate_step() {
   request_levels();
-  recompose(std::exchange(recompose_, Recompose::nothing));
-  limit_work();
+  recompose(composition_.take_due());
+  put_bodies_.limit_work(recorded_);
   recorded_.step();
   tell_guard_events();
-  take_away_costly();
+  for (const PutBody& body : put_bodies_.take_costly(recorded_)) take_away(body);
   const auto& cloths = simulation_.cloths();
   const bool as_asked = std::all_of(cloths.begin(), cloths.end(),
                                     [](const Cloth<float>& cloth) { return cloth.steps_as_asked(); });
@@ -238,9 +181,10 @@ void LiveScene::simulate_step() {
 void LiveScene::recompose(Recompose what) {
   if (what == Recompose::nothing) return;
   if (what == Recompose::effects) recorded_.run(command::SetEffects{studied().effects});
-  for (std::size_t i = 0; i < materials_.size(); ++i) {
-    if (simulation_.cloths()[i].description().material != materials_[i])
-      recorded_.run(command::SetMaterial{i, materials_[i]});
+  const std::vector<Material>& materials = composition_.materials();
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (simulation_.cloths()[i].description().material != materials[i])
+      recorded_.run(command::SetMaterial{i, materials[i]});
   }
 }
 
@@ -260,15 +204,15 @@ void LiveScene::tell_guard_events() {
 }
 
 bool LiveScene::remove_ball(BallId id) {
-  const json before = composition();
+  const json before = studied_json();
   const bool found = recorded_.run(command::RemoveBall{id});
-  if (composition() != before) study_outdated();
+  if (studied_json() != before) study_outdated();
   return found;
 }
 
 void LiveScene::find_range() {
   range_.extend(Vec3::Zero());
-  for (const BoundingSphere& cloth : bounds_) range_.extend(cloth.centre);
+  for (const BoundingSphere& cloth : sight_.bounds()) range_.extend(cloth.centre);
   for (const Ball& ball : simulation_.colliders().balls()) range_.extend(ball.position);
   for (const Obstacle& obstacle : simulation_.colliders().obstacles()) range_.extend(obstacle.pose.position);
   range_ = {range_.min() - Vec3::Constant(kBallRange), range_.max() + Vec3::Constant(kBallRange)};
@@ -292,12 +236,21 @@ void LiveScene::remove_lost_balls() {
   }
 }
 
-void LiveScene::find_bounds() {
-  bounds_.clear();
-  for (const Cloth<float>& cloth : simulation_.cloths()) {
-    const bool in_full = cloth.description().relevance.unseen != Relevance::Unseen::step;
-    bounds_.push_back(in_full ? bounding_sphere(cloth.particles())
-                              : BoundingSphere{centre(cloth.particles()), 0});
+void LiveScene::take_away(const PutBody& body) {
+  std::string what;
+  if (body.id < kFirstObstacle) {
+    what = "ball " + std::to_string(body.id) + " was taken away";
+    remove_ball(body.id);
+    balls_changed("ball.remove", simulation_.step_count(), body.id);
+  } else {
+    const std::size_t obstacle = body.id - kFirstObstacle;
+    what = "obstacle " + std::to_string(obstacle) + " was put back to where it was";
+    recorded_.run(command::MoveObstacle{obstacle, body.before});
+  }
+  tell_all(protocol::notice_text("too_costly", what + ": a step with it takes more work than it may"));
+  for (Seat& seat : seats_) {
+    if (seat.number != body.viewer) continue;
+    seat.puts_again_at = simulation_.step_count() + PutBodies::pause(scene_.simulation.time_step);
   }
 }
 

@@ -10,14 +10,16 @@
 #include <vector>
 
 #include "cloth/world/simulation.h"
+#include "host/composition.h"
 #include "host/event_queue.h"
 #include "host/frame_encoder.h"
 #include "host/guard_log.h"
+#include "host/put_bodies.h"
 #include "host/recorded_simulation.h"
 #include "host/scene_quality.h"
 #include "host/scene_request.h"
 #include "host/seat.h"
-#include "host/service_state.h"
+#include "host/sight.h"
 #include "protocol/message.h"
 #include "scene/scene.h"
 
@@ -32,9 +34,6 @@ class LiveScene {
   static constexpr std::size_t kMaxPins = 256;
   /// Steps that may be asked for at once and wait.
   static constexpr int kMaxWaitingSteps = 600;
-  /// Simulated, s, that a viewer must not have seen a cloth before less is done for it: who looks around
-  /// loses nothing. Counted in steps, so that it is the same when commands are made again.
-  static constexpr double kUnseenTime = 1.0;
 
   /// `playing`: a recording of the scene that is shown in place of a simulation of its own. It can be
   /// watched, paused, stepped and begun anew; what would change it is refused.
@@ -142,8 +141,6 @@ class LiveScene {
   void play_step();
   /// Viewers are told what the recording's commands have changed.
   void follow_played();
-  /// Effects and materials are those of the simulation.
-  void take_over_played();
   /// All that viewers are told by events, to be compared.
   nlohmann::json told() const;
   /// What follows when the simulation is at its beginning again: in a new epoch.
@@ -152,43 +149,24 @@ class LiveScene {
   std::optional<protocol::Error> too_large(double radius) const;
   /// What the viewer put before was taken away not long ago.
   std::optional<protocol::Error> may_not_put(const Seat& seat) const;
-  /// Call it before the body is put where it goes.
-  void has_put(ColliderId body, const Seat& seat);
-  /// Before a step: what it may take, if viewers' bodies are there.
-  void limit_work();
-  /// After it: takes away what made it take more.
-  void take_away_costly();
+  /// What made a step take too much work.
   void take_away(const PutBody& body);
   std::optional<protocol::Error> missing_cloth(std::uint32_t cloth) const;
   /// The scene is held at so many points as it may be.
   std::optional<protocol::Error> too_many_grabs() const;
-  /// Which cloths the viewer sees, and Eq. 7 for each, from where it is; `steps`: 1 in one, else 0.
-  void look(Seat& seat, int steps = 0);
   /// What it is sent: what its distance asks for, or coarser, as its link carries it.
   std::vector<int> sent_levels(const Seat& seat) const;
-  /// True for all cloths for which the scene makes no difference.
-  bool sees(const Seat& seat, std::size_t cloth) const;
-  /// The viewer has not seen the cloth for kUnseenTime.
-  bool lost(const Seat& seat, std::size_t cloth) const { return seat.steps_unseen[cloth] > unseen_steps_; }
-  /// No viewer that counts has. One that has just come and has not sent its camera yet does not count for
-  /// what is simulated, so that a join changes nothing of what others see; where nobody has, all do.
-  bool unseen(std::size_t cloth) const;
-  /// Nobody has sent its camera.
-  bool nobody_placed() const;
   void request_levels();
   void use_chosen_integrator();
   std::optional<protocol::Error> missing_effect(const std::string& effect) const;
-  bool is_off(std::string_view effect) const;
-  /// The effects that are on, their parameters or the materials are others now.
-  void composition_changed(Recompose what);
+  /// Does what is due.
   void recompose(Recompose what);
   /// What was studied is of another scene.
   void study_outdated();
   /// All that commands may change of what is studied, to be compared.
-  nlohmann::json composition() const;
+  nlohmann::json studied_json() const;
   /// Hands that nobody is known to hold with let go: what was written last is a command without its viewer.
   void release_unheld();
-  void find_bounds();
   void set_paused(bool paused);
   void tell_guard_events();
   /// False if there is none. One of the scene's own is studied with the scene's friction from then on.
@@ -224,18 +202,12 @@ class LiveScene {
     TimePoint until;
   };
   std::vector<LostSeat> lost_;
-  std::vector<PutBody> put_;
-  std::vector<double> usual_work_;            ///< by cloth: of its last step without those, as if at level 0
-  std::vector<int> finest_sendable_;          ///< by cloth
-  std::vector<BoundingSphere> bounds_;        ///< of the cloths; without a radius where nobody asks for it
-  std::vector<EffectDescription> effects_;    ///< the scene's, with the parameters that they have now
-  std::vector<std::string> effects_off_;      ///< of them, by name, in the scene's order
-  std::vector<Material> materials_;           ///< the cloths', as they are now
-  Recompose recompose_ = Recompose::nothing;  ///< not done yet: once a step, however many commands
+  Sight sight_;
+  PutBodies put_bodies_;
+  Composition composition_;
   std::uint64_t study_number_ = 0;
   Eigen::AlignedBox3d range_;  ///< of dynamic balls and obstacles (kBallRange)
   int frame_stride_ = 1;       ///< steps from one frame to the next
-  int unseen_steps_ = 1;       ///< kUnseenTime
   std::uint32_t epoch_ = 1;
   std::uint64_t seats_made_ = 0;
   std::uint64_t takes_effect_ = 0;  ///< step at which the command in hand does

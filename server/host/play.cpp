@@ -57,7 +57,7 @@ void LiveScene::play_step() {
   tell_guard_events();
   takes_effect_ = simulation_.step_count() + 1;
   if (replay.commands() != commands) {
-    take_over_played();
+    composition_.follow(simulation_);
     if (simulation_.step_count() <= step) begun_anew();  // it was reset after the step
     follow_played();
   }
@@ -66,7 +66,7 @@ void LiveScene::play_step() {
   if (!replay.at_end()) return;
   if (recorded_.loops()) {
     recorded_.run(command::Reset{});
-    take_over_played();
+    composition_.follow(simulation_);
     begun_anew();
   } else {
     waiting_steps_ = 0;
@@ -74,34 +74,18 @@ void LiveScene::play_step() {
   }
 }
 
-void LiveScene::take_over_played() {
-  for (std::size_t i = 0; i < materials_.size(); ++i)
-    materials_[i] = simulation_.cloths()[i].description().material;
-  // Those that are on are in the scene's order.
-  effects_off_.clear();
-  auto on = simulation_.effects().begin();
-  for (EffectDescription& effect : effects_) {
-    const std::string name = name_of(effect);
-    if (on != simulation_.effects().end() && name_of(*on) == name) {
-      effect = *on++;
-    } else if (!is_off(name)) {
-      effects_off_.push_back(name);
-    }
-  }
-}
-
 json LiveScene::told() const {
   json frictions = frictions_json(simulation_.colliders());
   for (const Ball& ball : simulation_.colliders().balls()) frictions.push_back(ball.friction);
   json off = json::object();
-  for (const std::string& effect : effects_off_) off[effect] = true;
+  for (const std::string& effect : composition_.effects_off()) off[effect] = true;
   return {{"wind", wind_json(simulation_.wind())},
           {"balls", motions_json(simulation_.colliders())},
           {"frictions", std::move(frictions)},
           {"pins", pins_json(simulation_.cloths())},
-          {"materials", materials_json(materials_, effects_)},
+          {"materials", materials_json(composition_.materials(), composition_.effects())},
           {"off", std::move(off)},
-          {"parameters", parameters_json(effects_)}};
+          {"parameters", parameters_json(composition_.effects())}};
 }
 
 void LiveScene::follow_played() {
@@ -117,7 +101,7 @@ void LiveScene::follow_played() {
   for_each_difference(before["off"], told_["off"], [&](const std::string& effect) { effect_set(effect); });
   for_each_difference(before["parameters"], told_["parameters"],
                       [&](const std::string& effect) { effect_tuned(effect); });
-  for (std::size_t i = 0; i < materials_.size(); ++i) {
+  for (std::size_t i = 0; i < composition_.materials().size(); ++i) {
     if (before["pins"][i].size() > told_["pins"][i].size()) {
       pins_changed("cloth.unpin", i);
     } else if (before["pins"][i] != told_["pins"][i]) {

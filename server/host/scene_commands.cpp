@@ -68,7 +68,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& se
     const Vec3 way = to_vec3(*camera.target) - *seat.eye;
     seat.cone = ViewCone{*seat.eye, way.stableNormalized(), *camera.half_angle};
   }
-  look(seat);
+  sight_.look(seat);
   request_levels();
   if (!wants_step()) seat.wants_frame = true;
   return json::object();
@@ -76,61 +76,55 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Camera& camera, Seat& se
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::ClothTune& tuning, Seat&) {
   if (const auto missing = missing_cloth(tuning.cloth)) return *missing;
-  Material& material = materials_[tuning.cloth];
-  const Material before = material;
-  if (const auto error = tune(tuning, effects_, material)) return *error;
-  if (material == before) return json::object();
-  composition_changed(Recompose::materials);
+  const auto tuned = composition_.tune(tuning);
+  if (const auto* error = std::get_if<Error>(&tuned)) return *error;
+  if (!std::get<bool>(tuned)) return json::object();
+  study_outdated();
   cloth_tuned(tuning.cloth);
   return json::object();
 }
 
 void LiveScene::cloth_tuned(std::size_t cloth) {
   events_.add("cloth.tune", std::to_string(cloth), takes_effect_, [this, cloth] {
-    return json{{"cloth", cloth}, {"material", material_json(materials_[cloth], effects_)}};
+    return json{{"cloth", cloth},
+                {"material", material_json(composition_.materials()[cloth], composition_.effects())}};
   });
 }
 
 std::optional<Error> LiveScene::missing_effect(const std::string& effect) const {
-  const auto is_it = [&](const EffectDescription& each) { return name_of(each) == effect; };
-  if (std::any_of(effects_.begin(), effects_.end(), is_it)) return {};
+  if (composition_.has(effect)) return {};
   return refused("unavailable", "/effect", "the scene has no effect \"" + effect + "\"");
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::EffectSet& set, Seat&) {
   if (const auto missing = missing_effect(set.effect)) return *missing;
-  if (is_off(set.effect) == !set.on) return json::object();
-  std::vector<std::string> off;  // each once, as the scene lists them
-  for (const EffectDescription& effect : effects_) {
-    const std::string name = name_of(effect);
-    const bool listed = std::find(off.begin(), off.end(), name) != off.end();
-    if (!listed && (name == set.effect ? !set.on : is_off(name))) off.push_back(name);
-  }
-  effects_off_ = std::move(off);
-  composition_changed(Recompose::effects);
+  if (!composition_.set(set)) return json::object();
+  study_outdated();
   effect_set(set.effect);
   return json::object();
 }
 
 void LiveScene::effect_set(const std::string& effect) {
   events_.add("effect", "", takes_effect_, [this, effect] {
-    return json{{"effect", effect}, {"on", !is_off(effect)}, {"effects_off", effects_off_}};
+    return json{{"effect", effect},
+                {"on", !composition_.is_off(effect)},
+                {"effects_off", composition_.effects_off()}};
   });
 }
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::EffectTune& tuning, Seat&) {
   if (const auto missing = missing_effect(tuning.effect)) return *missing;
-  const json before = parameters_json(effects_);
-  if (const auto error = tune(tuning, effects_)) return *error;
-  if (parameters_json(effects_) == before) return json::object();
-  if (!is_off(tuning.effect)) composition_changed(Recompose::effects);
+  const auto tuned = composition_.tune(tuning);
+  if (const auto* error = std::get_if<Error>(&tuned)) return *error;
+  if (!std::get<bool>(tuned)) return json::object();
+  if (!composition_.is_off(tuning.effect)) study_outdated();
   effect_tuned(tuning.effect);
   return json::object();
 }
 
 void LiveScene::effect_tuned(const std::string& effect) {
   events_.add("tune", effect, takes_effect_, [this, effect] {
-    return json{{"effect", effect}, {"parameters", parameters_json(effects_)[effect]}};
+    return json{{"effect", effect}, {"parameters", parameters_json(composition_.effects())[effect]}};
   });
 }
 
@@ -207,35 +201,28 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::Step& step, Seat&) {
 
 LiveScene::Outcome LiveScene::carry_out(const protocol::Reset&, Seat&) {
   waiting_steps_ = 0;
-  const json before = composition();
+  const json before = studied_json();
   recorded_.run(command::Reset{});
-  effects_ = scene_.simulation.effects;
-  effects_off_.clear();
-  for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i] = scene_.simulation.cloths[i].material;
-  if (plays()) take_over_played();
-  if (composition() != before) study_outdated();
+  composition_.begin_anew(scene_.simulation);
+  if (plays()) composition_.follow(simulation_);
+  if (studied_json() != before) study_outdated();
   begun_anew();
   return json{{"epoch", epoch_}};
 }
 
 void LiveScene::begun_anew() {
-  recompose_ = Recompose::nothing;  // it is as its description has it
   for (Seat& seat : seats_) {
     seat.grabs.clear();
     seat.puts_again_at = 0;
   }
   lost_.clear();
-  put_.clear();
+  put_bodies_.begin_anew();
   quality_.restarted();
   guard_ = {};
   ++epoch_;
   takes_effect_ = simulation_.step_count();
-  find_bounds();
-  for (Seat& seat : seats_) {
-    seat.policy_levels.clear();
-    seat.steps_unseen.clear();
-    look(seat);
-  }
+  sight_.find_bounds(simulation_.cloths());
+  for (Seat& seat : seats_) sight_.look_anew(seat);
   state_changed();
   events_.add("reset", "", takes_effect_, [this] {
     return json{{"epoch", epoch_},
@@ -243,15 +230,15 @@ void LiveScene::begun_anew() {
                 {"paused", paused_},
                 {"wind", wind_json(simulation_.wind())},
                 {"balls", balls_json(simulation_.colliders())},
-                {"parameters", parameters_json(effects_)},
-                {"materials", materials_json(materials_, effects_)},
+                {"parameters", parameters_json(composition_.effects())},
+                {"materials", materials_json(composition_.materials(), composition_.effects())},
                 {"frictions", frictions_json(simulation_.colliders())},
                 {"pins", pins_json(simulation_.cloths())}};
   });
   if (plays()) {
     told_ = told();
     // A reset has all effects on, but a recording may begin where some are off.
-    for (const std::string& effect : effects_off_) effect_set(effect);
+    for (const std::string& effect : composition_.effects_off()) effect_set(effect);
   }
   request_levels();
 }

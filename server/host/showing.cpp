@@ -59,7 +59,7 @@ void LiveScene::send_stats(double rate) {
   for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
     state.substeps.push_back(simulation_.report(i).substeps);
     state.levels.push_back(encoder_.simulated_level(i));
-    state.unseen.push_back(unseen(i));
+    state.unseen.push_back(sight_.unseen(seats_, i));
   }
   state.quality = quality_.stats_json();
   state.guard = guard_.stats_json();

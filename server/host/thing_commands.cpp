@@ -1,10 +1,12 @@
 /// LiveScene's commands to the things in it, balls, obstacles, hands and pins: what each does, and when it is
 /// refused.
 #include <algorithm>
+#include <cmath>
 
 #include "host/live_scene.h"
 #include "host/refusal.h"
 #include "host/scene_messages.h"
+#include "protocol/member.h"
 
 namespace weft::host {
 namespace {
@@ -33,6 +35,24 @@ Error no_such_grab(GrabId id) {
 
 }  // namespace
 
+std::optional<Error> LiveScene::too_large(double radius) const {
+  double most = 0;
+  for (const ClothDescription& cloth : scene_.simulation.cloths) most = std::max(most, cloth.size.norm());
+  most = std::ceil(100 * most) / 100;
+  if (radius <= most) return {};
+  const auto fault = protocol::refuse(
+      "range", "/radius", radius, protocol::range_text({0.01, most, "m, in this scene: its cloth's size"}));
+  return refused("range", "/radius", fault.message);
+}
+
+std::optional<Error> LiveScene::may_not_put(const Seat& seat) const {
+  if (simulation_.step_count() >= seat.puts_again_at) return {};
+  return refused(
+      "limit", "",
+      "what this viewer put made a step take too much work; it may put something again from step " +
+          std::to_string(seat.puts_again_at) + " on");
+}
+
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat) {
   if (const auto not_now = may_not_put(seat)) return *not_now;
   if (const auto large = too_large(add.radius)) return *large;
@@ -49,7 +69,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat
   ball.mass = add.mass;
   ball.friction = add.friction;
   const BallId id = recorded_.run(command::AddBall{ball});
-  has_put(id, seat);
+  put_bodies_.put(id, seat.number, simulation_);
   balls_changed("ball.add", takes_effect_, id);
   return json{{"ball", id}};
 }
@@ -57,7 +77,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallAdd& add, Seat& seat
 LiveScene::Outcome LiveScene::carry_out(const protocol::BallMove& move, Seat& seat) {
   if (const auto not_now = may_not_put(seat)) return *not_now;
   if (!recorded_.run(command::MoveBall{move.ball, to_vec3(move.position)})) return no_such_ball(move.ball);
-  has_put(move.ball, seat);
+  put_bodies_.put(move.ball, seat.number, simulation_);
   return json::object();
 }
 
@@ -65,7 +85,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::BallThrow& thrown, Seat&
   if (const auto not_now = may_not_put(seat)) return *not_now;
   if (!recorded_.run(command::ThrowBall{thrown.ball, to_vec3(thrown.velocity)}))
     return no_such_ball(thrown.ball);
-  has_put(thrown.ball, seat);
+  put_bodies_.put(thrown.ball, seat.number, simulation_);
   balls_changed("ball.throw", takes_effect_, thrown.ball);
   return json::object();
 }
@@ -85,7 +105,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleMove& move, Seat
     const protocol::Turn& q = *move.quaternion;
     pose.orientation = Quaternion(q[0], q[1], q[2], q[3]);
   }
-  has_put(kFirstObstacle + move.obstacle, seat);
+  put_bodies_.put(kFirstObstacle + move.obstacle, seat.number, simulation_);
   recorded_.run(command::MoveObstacle{move.obstacle, pose});
   return json::object();
 }
@@ -95,7 +115,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleThrow& thrown, S
   const auto& obstacles = simulation_.colliders().obstacles();
   if (thrown.obstacle >= obstacles.size()) return no_such_obstacle(thrown.obstacle, obstacles.size());
   if (!obstacles[thrown.obstacle].body) return no_mass(thrown.obstacle);
-  has_put(kFirstObstacle + thrown.obstacle, seat);
+  put_bodies_.put(kFirstObstacle + thrown.obstacle, seat.number, simulation_);
   recorded_.run(command::ThrowObstacle{thrown.obstacle, to_vec3(thrown.velocity), to_vec3(thrown.spin)});
   return json::object();
 }
@@ -117,7 +137,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::ObstacleGrab& grab, Seat
   const auto id =
       recorded_.run(command::GrabObstacle{grab.obstacle, to_vec3(grab.point), hand, grab.max_force});
   if (!id) return no_mass(grab.obstacle);
-  has_put(kFirstObstacle + grab.obstacle, seat);
+  put_bodies_.put(kFirstObstacle + grab.obstacle, seat.number, simulation_);
   seat.grabs.push_back(*id);
   return json{{"grab", *id}};
 }
@@ -178,7 +198,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
   const auto frictions = [&] {
     return json{{"balls", balls_json(colliders)}, {"frictions", frictions_json(colliders)}};
   };
-  const json before = frictions(), studied_before = composition();
+  const json before = frictions(), studied_before = studied_json();
   if (set.ball) {
     if (!recorded_.run(command::SetBallFriction{*set.ball, set.friction})) return no_such_ball(*set.ball);
   } else if (set.obstacle) {
@@ -190,7 +210,7 @@ LiveScene::Outcome LiveScene::carry_out(const protocol::FrictionSet& set, Seat&)
       recorded_.run(command::SetObstacleFriction{i, set.friction});
   }
   if (frictions() == before) return json::object();
-  if (composition() != studied_before) study_outdated();
+  if (studied_json() != studied_before) study_outdated();
   frictions_changed();
   return json::object();
 }

@@ -7,6 +7,7 @@
 // less.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/world/simulation.h"
 #include "methods.h"
@@ -71,8 +72,39 @@ SimulationDescription strip(int level) {
   return simulation;
 }
 
-/// What neither damps nor drives: without air, pressure and what tears, and with all that moves standing
-/// still where it begins, or away if it would fall.
+/// Where it begins, for good.
+void stop(PinRegion& pin) {
+  pin.path.clear();
+  pin.motion.clear();
+  pin.loop = false;
+  pin.obstacle.reset();
+  pin.ball.reset();
+  pin.from = 0;
+  pin.until = std::numeric_limits<double>::infinity();
+}
+void stop(BallDescription& ball) {
+  if (!ball.path.empty()) ball.position = ball.path.front().position;
+  ball.path.clear();
+  ball.loop = false;
+  ball.velocity = Vec3::Zero();
+}
+void stop(ObstacleDescription& obstacle) {
+  if (!obstacle.path.empty()) {
+    const Pose begin = obstacle.path.front().pose;
+    obstacle.position = begin.position;
+    std::visit(
+        [&](auto& shape) {
+          if constexpr (requires { shape.orientation; }) shape.orientation = begin.orientation;
+        },
+        obstacle.shape);
+  }
+  obstacle.path.clear();
+  obstacle.loop = false;
+  if (obstacle.body) obstacle.body->dynamic = false;
+}
+
+/// What neither damps nor drives: without air, pressure and what tears, and with all that moves by a path or
+/// with a skeleton's bone standing still where it begins, or away if it would fall.
 void close_off(SimulationDescription& scene) {
   std::erase_if(scene.effects, [](const EffectDescription& effect) {
     return !std::holds_alternative<GravityEffect>(effect) &&
@@ -82,23 +114,12 @@ void close_off(SimulationDescription& scene) {
   });
   scene.wind = Wind{};
   for (ClothDescription& cloth : scene.cloths) {
-    for (PinRegion& pin : cloth.pins) {
-      pin.path.clear();
-      pin.loop = false;
-    }
+    for (PinRegion& pin : cloth.pins) stop(pin);
   }
   std::erase_if(scene.balls,
                 [](const BallDescription& ball) { return ball.motion == BallDescription::Motion::dynamic; });
-  for (BallDescription& ball : scene.balls) {
-    ball.path.clear();
-    ball.loop = false;
-    ball.velocity = Vec3::Zero();
-  }
-  for (ObstacleDescription& obstacle : scene.obstacles) {
-    obstacle.path.clear();
-    obstacle.loop = false;
-    if (obstacle.body) obstacle.body->dynamic = false;
-  }
+  for (BallDescription& ball : scene.balls) stop(ball);
+  for (ObstacleDescription& obstacle : scene.obstacles) stop(obstacle);
 }
 
 IntegratorDescription method_of(const Run& run) {

@@ -5,6 +5,7 @@
 
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/node_kernels.h"
+#include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
 
 namespace weft {
@@ -35,10 +36,8 @@ double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces
 
 template <class Real>
 double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double motion, double dt) const {
-  double mass = 0;
-  for (const Real node : particles.mass.values()) mass += double(node);
   const double slow = kSlowStep * standard_gravity().norm() * dt;
-  return motion / (motion + mass * slow * slow / 2);
+  return motion / (motion + total_mass(particles) * slow * slow / 2);
 }
 
 template <class Real>

@@ -28,16 +28,12 @@ template <class Real>
 Implicit<Real>::State::State(const Grid& grid, const Sheet<Real>& sheet, bool sewn)
     : system(grid, sheet.springs().has_bending(), sheet.plate(), sewn),
       solver(grid),
-      numbers(grid, 1),
-      vectors(grid, 18),
-      start(grid),
-      start_velocity(grid),
+      vectors(grid, 12),
       force(grid),
-      step{numbers[0], vectors.vector(0), vectors.vector(3)},
-      position(vectors.vector(6)),
-      b(vectors.vector(9)),
-      change(vectors.vector(12)),
-      move(vectors.vector(15)) {}
+      position(vectors.vector(0)),
+      b(vectors.vector(3)),
+      change(vectors.vector(6)),
+      move(vectors.vector(9)) {}
 
 template <class Real>
 AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
@@ -50,7 +46,8 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double h = dt / report.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;
-  memory_->ledger.begin_step(particles, forces, state_->lead ? h / 2 : 0);
+  StepFormula<Real>& formula = memory_->formula;
+  memory_->ledger.begin_step(particles, forces, formula.lead() != nullptr ? h / 2 : 0);
   ContactConstraints<Real>& contacts = memory_->contacts;
   bool touched = false;
   for (int substep = 0; substep < report.substeps; ++substep) {
@@ -86,21 +83,18 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     }
     forces.join(particles);
     if (forces.sheet->damped()) find_way(forces);  // with what the last iteration has added
-    memory_->ledger.count_work(
-        particles, forces,
-        {state_->start, state_->start_velocity, forces.sheet->damped() ? &state_->way : nullptr,
-         state_->lead ? &*state_->lead : nullptr, h});
-    const double kept = memory_->momentum.end_substep(particles, forces, solids, state_->start, contact,
-                                                      contacts.pushed_by_firm(),
-                                                      second_order_ ? &memory_->second_order : nullptr, h);
-    if (second_order_ && kept != 1) scale_motion(particles, kept, memory_->last_velocity);
+    memory_->ledger.count_work(particles, forces,
+                               {formula.start(), formula.start_velocity(),
+                                forces.sheet->damped() ? &state_->way : nullptr, formula.lead(), h});
+    const double kept = memory_->momentum.end_substep(particles, forces, solids, formula.start(), contact,
+                                                      contacts.pushed_by_firm(), formula.by_bdf2(), h);
+    if (kept != 1) formula.scale(particles, kept, is_held(particles));
     touched = touched || report.nodes_in_contact > 0 || !contacts.empty();
-    end_substep(particles, contact, h);
+    end_substep(particles, contact);
   }
   const double scale = memory_->ledger.end_step(particles, forces, dt, touched, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
-  if (second_order_ && scale != 1)
-    scale_motion(particles, scale, memory_->last_velocity, touched || is_held(particles));
+  if (scale != 1) formula.scale(particles, scale, touched || is_held(particles));
   report.sound = state_->sound;
   return report;
 }
@@ -112,11 +106,8 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     state_.emplace(grid, *forces.sheet, forces.bag != nullptr);
     if (forces.sheet->damped()) state_->way = VectorField<Real>(grid);
   }
-  if (!memory_ || memory_->second_order.grid() != grid) memory_.emplace(grid, parameters_);
-  state_->lead.reset();
-  if (!second_order_ && !is_held(particles)) state_->lead.emplace(grid);
-  if (memory_->h != h) memory_->second_order.fill(Real(0));  // BDF2's formula is for equal steps
-  memory_->h = h;
+  if (!memory_ || memory_->formula.grid() != grid) memory_.emplace(grid, parameters_, second_order_);
+  memory_->formula.begin_step(particles, h);
   const bool tore = state_->soft && state_->soft->torn() != forces.sheet->torn();
   if (state_->h != h || tore) measure_sheet(*forces.sheet, *forces.context.cloth, particles.mass, h);
   if (state_->torn != forces.sheet->torn()) {
@@ -154,15 +145,12 @@ template <class Real>
 void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
   State& s = *state_;
   s.h = h;
-  const std::size_t count = particles.grid().size();
-  const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
-  if (s.lead) s.lead->fill(static_cast<Real>(h / 2));
-  const auto begin_anew = [&](std::size_t node) { break_motion(node); };
-  memory_->contacts.for_each_broken(begin_anew);
-  if (forces.layers != nullptr) forces.layers->for_each_node(begin_anew);
-  copy<Real>(kernels::components(particles.position), kernels::components(s.start), count);
-  copy<Real>(velocity, kernels::components(s.start_velocity), count);
-  begin_formula(h);
+  StepFormula<Real>& formula = memory_->formula;
+  formula.begin_substep(particles);
+  const auto break_motion = [&](std::size_t node) { formula.break_motion(node); };
+  memory_->contacts.for_each_broken(break_motion);
+  if (forces.layers != nullptr) forces.layers->for_each_node(break_motion);
+  formula.prepare();
   const bool solids = !memory_->contacts.empty();
   const bool touched =
       solids || (forces.layers != nullptr && !forces.layers->empty()) || forces.sheet->torn() != nullptr;
@@ -190,12 +178,13 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
 
   const kernels::Iterate<Real> iterate{s.move, kernels::components(particles.velocity),
                                        kernels::components(s.force)};
+  const kernels::BackwardStep<Real>& step = memory_->formula.coefficients();
   const Real* mass = particles.mass.row(0);
   if (blocks) {
-    kernels::assemble_system<Real>(mass, finest.free(), s.step, iterate, finest.diagonal(),
+    kernels::assemble_system<Real>(mass, finest.free(), step, iterate, finest.diagonal(),
                                    finest.matrix.blocks, s.b, count);
   } else {
-    kernels::assemble_system<Real>(mass, finest.free(), s.step, iterate, finest.diagonal(), s.b, count);
+    kernels::assemble_system<Real>(mass, finest.free(), step, iterate, finest.diagonal(), s.b, count);
   }
   s.system.couplings().clear();
   if (!memory_->contacts.empty()) {
@@ -231,28 +220,16 @@ template <class Real>
 int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& forces, double h) {
   State& s = *state_;
   guess_move(h);
-  NewtonReport report = iterate(particles, forces, &Implicit::whole_change);
+  NewtonReport report = iterate(particles, forces, Take::whole);
   if (report.brought_in <= 0) return report.linear_iterations;
-  const std::size_t count = particles.grid().size();
-  copy<Real>(kernels::components(s.start), kernels::components(particles.position), count);
-  copy<Real>(kernels::components(s.start_velocity), kernels::components(particles.velocity), count);
+  memory_->formula.return_to_start(particles);
   // Past motion says little about what follows: from here on as backward Euler, the next substep too.
-  s.smooth = false;
-  memory_->second_order.fill(Real(0));
-  begin_formula(h);
+  memory_->formula.break_all();
+  memory_->formula.prepare();
   guess_move(h);
-  const NewtonReport searched = iterate(particles, forces, &Implicit::searched_change);
+  const NewtonReport searched = iterate(particles, forces, Take::searched);
   s.sound = s.sound && searched.found;
   return report.linear_iterations + searched.linear_iterations;
-}
-
-template <class Real>
-void Implicit<Real>::begin_formula(double h) {
-  State& s = *state_;
-  kernels::begin_backward_step<Real>(memory_->second_order.row(0), kernels::components(s.start_velocity),
-                                     kernels::components(memory_->last_move),
-                                     kernels::components(memory_->last_velocity), static_cast<Real>(h),
-                                     s.step, s.system.grid().size());
 }
 
 template <class Real>
@@ -262,8 +239,8 @@ void Implicit<Real>::guess_move(double h) {
   const std::size_t count = s.system.grid().size();
   clear(s.move, count);
   s.system.bodies().reset();
-  kernels::scaled_difference<Real>(kernels::components(s.start_velocity), s.move, static_cast<Real>(h),
-                                   s.change, count);
+  kernels::scaled_difference<Real>(kernels::components(memory_->formula.start_velocity()), s.move,
+                                   static_cast<Real>(h), s.change, count);
 }
 
 template <class Real>
@@ -271,37 +248,29 @@ void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& 
                                      std::vector<Solid>& solids, const Substep& part, AdvanceReport& report) {
   State& s = *state_;
   EnergyLedger<Real>& ledger = memory_->ledger;
+  const StepFormula<Real>& formula = memory_->formula;
   double before = 0;
   if (ledger.counts()) {
     before = motion_energy(particles, true).inner;
-    ledger.count_contact(memory_->contacts.work(
-        s.move,
-        {kernels::components(std::as_const(s.start_velocity)),
-         kernels::components(std::as_const(particles.velocity)), s.lead ? s.lead->row(0) : nullptr},
-        s.system.bodies()));
+    ledger.count_contact(
+        memory_->contacts.work(s.move,
+                               {kernels::components(formula.start_velocity()),
+                                kernels::components(std::as_const(particles.velocity)),
+                                formula.lead() != nullptr ? formula.lead()->row(0) : nullptr},
+                               s.system.bodies()));
   }
-  report.nodes_in_contact = contact.resolve(particles, solids, part, &s.start);
+  report.nodes_in_contact = contact.resolve(particles, solids, part, &formula.start());
   if (ledger.counts()) ledger.count_contact({before - motion_energy(particles, true).inner, 0});
 }
 
 template <class Real>
-void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h) {
-  State& s = *state_;
-  const std::size_t count = particles.grid().size();
-  kernels::scaled_difference<Real>(kernels::components(particles.velocity),
-                                   kernels::components(s.start_velocity), static_cast<Real>(1 / h),
-                                   kernels::components(particles.acceleration), count);
-  if (!second_order_) return;
-  kernels::scaled_difference<Real>(kernels::components(particles.position), kernels::components(s.start),
-                                   Real(1), kernels::components(memory_->last_move), count);
-  memory_->last_velocity = s.start_velocity;
-  memory_->second_order.fill(s.smooth ? Real(1) : Real(0));
-  s.smooth = true;
-  if (contact == nullptr) return;
+void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>* contact) {
+  memory_->formula.end_substep(particles);
+  if (contact == nullptr || !second_order_) return;
   for (const Touch& touch : contact->touches()) {
     if (memory_->contacts.goes_on(touch)) continue;
     ClothPoint<Real>(touch.point(), particles).for_each_node([&](std::size_t node, double) {
-      memory_->begin_anew(node);
+      memory_->formula.begin_anew(node);
     });
   }
 }

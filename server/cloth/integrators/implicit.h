@@ -7,6 +7,7 @@
 #include "cloth/integrators/momentum_keeper.h"
 #include "cloth/integrators/motion_scale.h"
 #include "cloth/integrators/softened_springs.h"
+#include "cloth/integrators/step_formula.h"
 #include "cloth/kernels/implicit_kernels.h"
 
 namespace weft {
@@ -38,9 +39,9 @@ namespace weft {
 /// What formula and solves take from a cloth's energy is given back where nothing but wind drives it, and
 /// what they give is taken (EnergyLedger).
 ///
-/// BDF2 also needs the last substep's move and velocity. It keeps them itself and begins with one substep of
-/// backward Euler, as it does again after restart() and, node by node, where contact begins or ends, which
-/// breaks the smooth motion that the formula extrapolates. Where contact with firm solids lasts it goes on.
+/// BDF2 also needs the last substep's move and velocity (StepFormula). It begins with one substep of backward
+/// Euler, as it does again after restart() and, node by node, where contact begins or ends, which breaks the
+/// smooth motion that the formula extrapolates. Where contact with firm solids lasts it goes on.
 template <class Real>
 class Implicit final : public Integrator<Real> {
  public:
@@ -65,7 +66,7 @@ class Implicit final : public Integrator<Real> {
     archive(remembers);
     if (Archive::is_loading::value) {
       memory_.reset();
-      if (remembers) memory_.emplace(Grid{}, parameters_);
+      if (remembers) memory_.emplace(Grid{}, parameters_, second_order_);
     }
     if (memory_) archive(*memory_);
   }
@@ -73,28 +74,19 @@ class Implicit final : public Integrator<Real> {
  private:
   /// What a substep leaves to the next one.
   struct Memory {
-    Memory(const Grid& grid, const ImplicitParameters& parameters)
-        : second_order(grid),
-          last_move(grid),
-          last_velocity(grid),
-          correction(grid, 3),
-          ledger(parameters.liveliness) {}
+    Memory(const Grid& grid, const ImplicitParameters& parameters, bool by_second_order)
+        : formula(grid, by_second_order), correction(grid, 3), ledger(parameters.liveliness) {}
 
-    Field<Real> second_order;  ///< 1 where the last substep's move and velocity may be used, else 0
-    VectorField<Real> last_move, last_velocity;
+    StepFormula<Real> formula;
     NodeArrays<Real> correction;  ///< of the last substep's guess by its first solve, m
-    double h = 0;                 ///< s, of the last substep
     ContactConstraints<Real> contacts;
     EnergyLedger<Real> ledger;
     MomentumKeeper<Real> momentum;
 
-    /// The node's next substep is one of backward Euler.
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(second_order, last_move, last_velocity, correction, h, contacts, ledger, momentum);
+      archive(formula, correction, contacts, ledger, momentum);
     }
-
-    void begin_anew(std::size_t node) { second_order.row(0)[node] = Real(0); }
   };
   /// All else that lives on one grid.
   struct State {
@@ -102,18 +94,13 @@ class Implicit final : public Integrator<Real> {
 
     Multigrid<Real> system;
     ConjugateGradients<Real> solver;
-    NodeArrays<Real> numbers, vectors;
-    VectorField<Real> start, start_velocity, force;
-    /// By how many seconds places run ahead of speeds (EnergyLedger): of backward Euler, unless a node is
-    /// held.
-    std::optional<Field<Real>> lead;
+    NodeArrays<Real> vectors;
+    VectorField<Real> force;
     VectorField<Real> way;  ///< of nodes and moving pins in the substep, m; empty where the sheet is undamped
-    kernels::BackwardStep<Real> step;
     kernels::Components<Real> position;  ///< of the iterate, with margins
     kernels::Components<Real> b, change, move;
-    std::vector<OneSidedSpring> one_sided;  ///< those of a change
-    double h = 0;                           ///< s, of the last step's substeps
-    std::optional<Sheet<Real>> soft;        ///< in place of the cloth's, where that is too stiff for h
+    double h = 0;                     ///< s, of the last step's substeps
+    std::optional<Sheet<Real>> soft;  ///< in place of the cloth's, where that is too stiff for h
     /// Share of their stiffness that softened springs keep. They are allowed that share of the error: they
     /// would stretch by as much more than the cloth's with the same energy.
     double kept_stiffness = 1;
@@ -122,7 +109,6 @@ class Implicit final : public Integrator<Real> {
     double stretched_to_twice = 0;          ///< J, that all springs hold at their double length
     MotionScale<Real> motion;               ///< as the substep begins
     SolveTarget target;                     ///< of the substep's solves
-    bool smooth = true;                     ///< the substep was not taken back
     bool sound = true;                      ///< a move was found in every substep of the step
   };
 
@@ -142,44 +128,23 @@ class Implicit final : public Integrator<Real> {
     double brought_in = 0;  ///< energy, J; below 0: given off
     bool found = false;     ///< some change was taken, or none was due
   };
-  struct ChangeReport {
-    double brought_in = 0;  ///< energy, J
-    /// How far the springs' and the gas's linearisation is off, or what is left to gain, J.
-    double error = 0;
-    double largest = 0;  ///< of that, in one spring, J
-    double struck = 0;   ///< SpringModelError's
-    bool taken = true;   ///< not dropped
-    bool wild = false;   ///< brings in far more than was to be gained
-  };
-  /// Makes of the system's solution, which gains `decrease`, J, by the linearisation, the change to take.
-  using Change = ChangeReport (Implicit::*)(const Forces<Real>& forces, double decrease);
+  /// How much of each solve's change is taken (ChangeSearch).
+  enum class Take { whole, searched };
 
   /// Takes the particles from the substep's start to its end. Returns the linear iterations.
   int find_move(Particles<Real>& particles, const Forces<Real>& forces, double h);
-  void begin_formula(double h);
   void guess_move(double h);
-  NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change);
-  /// Contact broke the node's motion in this substep: it goes by backward Euler, without a past.
-  void break_motion(std::size_t node) {
-    memory_->begin_anew(node);
-    if (state_->lead) state_->lead->row(0)[node] = Real(0);
-  }
+  NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Take take);
   /// Lets go of nodes that the iteration has drawn off the side of a solid; true if there are any.
   bool let_go(const Particles<Real>& particles);
   /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
   bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   /// Holds what this iteration would have pass through each other; true if there is any.
   bool hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers);
-  /// Less than the whole where contacts come in its way, or where it is wild.
-  ChangeReport whole_change(const Forces<Real>& forces, double decrease);
-  ChangeReport searched_change(const Forces<Real>& forces, double decrease);
-  /// Of the change as it is.
-  ChangeReport model_change(const Forces<Real>& forces, double decrease) const;
-  void scale_change(double share);
   /// Puts right what the solve has left of contact, and tells the ledger what contact took.
   void resolve_contact(Particles<Real>& particles, Contact<Real>& contact, std::vector<Solid>& solids,
                        const Substep& part, AdvanceReport& report);
-  void end_substep(Particles<Real>& particles, const Contact<Real>* contact, double h);
+  void end_substep(Particles<Real>& particles, const Contact<Real>* contact);
 
   const char* name_;
   ImplicitParameters parameters_;

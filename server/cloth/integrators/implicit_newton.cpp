@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cloth/core/interrupt.h"
+#include "cloth/integrators/change_search.h"
 #include "cloth/integrators/implicit.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
@@ -37,29 +38,18 @@ constexpr double kStruck = 0.01;
 constexpr int kWholeSpareIterations = 4;
 /// Number of searched iterations while a spring is misjudged by kRoughSpring.
 constexpr int kSpareSearches = 24;
-/// A whole change that adds so many times the energy that it was to remove, and strains all springs by
-/// kWildStrain on average, is halved until it does not: the next linearisations would take long to return.
-constexpr double kWild = 10, kWildStrain = 0.01;
-/// Shortest share of a change that a search tries.
-constexpr double kSmallestShare = 1e-4;
 /// A change that is dropped does not matter if it lowers the energy by less than this share of the motion's.
 constexpr double kMissedShare = 1e-3;
-
-/// Rounding of energies that are summed and subtracted, in units of the scalar's last digit: less cannot be
-/// told from a gain.
-constexpr double kRounding = 4;
-/// The same of what a solve gains: its directions gain and lose far more than their sum.
-constexpr double kSolveRounding = 300;
-
 /// Work of a linearisation and of judging its change, a node (WorkLimit).
 constexpr double kWorkOfNewton = 10;
 
 }  // namespace
 
 template <class Real>
-auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Change change)
+auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Take take)
     -> NewtonReport {
   State& s = *state_;
+  const StepFormula<Real>& formula = memory_->formula;
   const std::size_t count = particles.grid().size();
   NewtonReport report;
   const bool heap = forces.layered && !memory_->contacts.empty();
@@ -77,12 +67,14 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
     s.motion.found(decrease);
     const bool stray =
         left <= -kWholeSpareIterations && memory_->contacts.empty() && forces.layers == nullptr;
+    ChangeSearch<Real> search(forces, memory_->contacts, s.system, {s.position, s.move, s.change},
+                              s.stretched_to_twice);
     const ChangeReport changed =
-        stray ? searched_change(forces, decrease) : (this->*change)(forces, decrease);
+        stray || take == Take::searched ? search.take_searched(decrease) : search.take_whole(decrease);
     s.system.bodies().take_changes();
     kernels::move_nodes<Real>(
-        s.step,
-        {s.system.finest().free(), kernels::components(s.start), s.change, s.move,
+        formula.coefficients(),
+        {s.system.finest().free(), kernels::components(formula.start()), s.change, s.move,
          kernels::components(particles.position), kernels::components(particles.velocity)},
         count);
     clear(s.change, count);
@@ -138,11 +130,11 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
       bodies.empty() ? std::vector<Solid>{} : memory_->contacts.bent(*solids, bodies);
   const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
   if (!memory_->contacts.hold_inside(contact->inside(particles, now, part),
-                                     contact->passed(particles, s.start, now, part), particles, now, s.move,
-                                     bodies, springs.node_stiffness(), missed))
+                                     contact->passed(particles, memory_->formula.start(), now, part),
+                                     particles, now, s.move, bodies, springs.node_stiffness(), missed))
     return false;
-  memory_->contacts.for_each_broken([&](std::size_t node) { break_motion(node); });
-  begin_formula(s.h);
+  memory_->contacts.for_each_broken([&](std::size_t node) { memory_->formula.break_motion(node); });
+  memory_->formula.prepare();
   return true;
 }
 
@@ -150,83 +142,18 @@ template <class Real>
 bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
   State& s = *state_;
   if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
-  layers.for_each_node([&](std::size_t node) { break_motion(node); });
-  begin_formula(s.h);
+  layers.for_each_node([&](std::size_t node) { memory_->formula.break_motion(node); });
+  memory_->formula.prepare();
   return true;
 }
 
-template <class Real>
-void Implicit<Real>::scale_change(double share) {
-  State& s = *state_;
-  for (Real* component : {s.change.x, s.change.y, s.change.z}) {
-    std::transform(component, component + s.system.grid().size(), component,
-                   [part = static_cast<Real>(share)](Real x) { return part * x; });
-  }
-  s.system.bodies().scale_changes(share);
-}
-
-template <class Real>
-auto Implicit<Real>::whole_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
-  State& s = *state_;
-  s.one_sided.clear();
-  if (!memory_->contacts.empty())
-    memory_->contacts.append_springs(s.move, s.change, s.system.bodies(), s.one_sided);
-  if (forces.layers != nullptr) forces.layers->append_springs(s.move, s.change, s.one_sided);
-  double share = s.one_sided.empty() ? 1 : best_share(s.one_sided, decrease);
-  if (share < 1) scale_change(share);
-  for (;;) {
-    const double left_over = (1 - share) * (1 - share) * decrease;
-    const ChangeReport report = model_change(forces, decrease - left_over);
-    if (!report.wild || share < kSmallestShare)
-      return {report.brought_in, std::max(report.error, left_over), report.largest, report.struck};
-    scale_change(0.5);
-    share /= 2;
-  }
-}
-
-template <class Real>
-auto Implicit<Real>::model_change(const Forces<Real>& forces, double decrease) const -> ChangeReport {
-  const kernels::SpringModelError error =
-      forces.model_error(state_->system.grid(), state_->position, state_->change);
-  const double rounding = double(std::numeric_limits<Real>::epsilon()) *
-                          (kRounding * error.magnitude + kSolveRounding * decrease);
-  return {.brought_in = error.sum - decrease + rounding,
-          .error = error.magnitude,
-          .largest = error.largest,
-          .struck = error.struck,
-          .wild = error.sum - decrease > kWild * decrease &&
-                  error.sum > kWildStrain * kWildStrain * state_->stretched_to_twice + rounding};
-}
-
-template <class Real>
-auto Implicit<Real>::searched_change(const Forces<Real>& forces, double decrease) -> ChangeReport {
-  const kernels::Components<Real> change = state_->change;
-  for (double share = 1; share > kSmallestShare; share /= 2) {
-    // A share of the change has share (2 - share) of the decrease.
-    const ChangeReport report = model_change(forces, share * (2 - share) * decrease);
-    if (report.brought_in <= 0) return report;
-    scale_change(0.5);
-  }
-  clear(change, state_->system.grid().size());
-  state_->system.bodies().scale_changes(0);
-  return {.taken = false};
-}
-
-template auto Implicit<float>::iterate(Particles<float>&, const Forces<float>&, Change) -> NewtonReport;
+template auto Implicit<float>::iterate(Particles<float>&, const Forces<float>&, Take) -> NewtonReport;
 template bool Implicit<float>::let_go(const Particles<float>&);
 template bool Implicit<float>::hold_inside(const Particles<float>&, const Springs<float>&, double);
 template bool Implicit<float>::hold_meeting(const Particles<float>&, LayerContacts<float>&);
-template void Implicit<float>::scale_change(double);
-template auto Implicit<float>::whole_change(const Forces<float>&, double) -> ChangeReport;
-template auto Implicit<float>::model_change(const Forces<float>&, double) const -> ChangeReport;
-template auto Implicit<float>::searched_change(const Forces<float>&, double) -> ChangeReport;
-template auto Implicit<double>::iterate(Particles<double>&, const Forces<double>&, Change) -> NewtonReport;
+template auto Implicit<double>::iterate(Particles<double>&, const Forces<double>&, Take) -> NewtonReport;
 template bool Implicit<double>::let_go(const Particles<double>&);
 template bool Implicit<double>::hold_inside(const Particles<double>&, const Springs<double>&, double);
 template bool Implicit<double>::hold_meeting(const Particles<double>&, LayerContacts<double>&);
-template void Implicit<double>::scale_change(double);
-template auto Implicit<double>::whole_change(const Forces<double>&, double) -> ChangeReport;
-template auto Implicit<double>::model_change(const Forces<double>&, double) const -> ChangeReport;
-template auto Implicit<double>::searched_change(const Forces<double>&, double) -> ChangeReport;
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
 
 namespace weft {
@@ -35,17 +36,6 @@ double kinetic_energy(const Solid& solid) {
   return energy;
 }
 
-template <class Real>
-Eigen::Matrix3d inertia_about(const Vec3& centre, const Particles<Real>& particles) {
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for_each_node(particles.grid(), [&](std::size_t, int r, int c) {
-    const Vec3 arm = particles.position_at(r, c) - centre;
-    inertia += double(particles.mass.at(r, c)) *
-               (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-  });
-  return inertia;
-}
-
 /// The largest share of a change, up to 1, that adds no more than `most` to an energy which it changes by
 /// linear * share + square * share^2.
 double share_within(double most, double linear, double square) {
@@ -59,13 +49,11 @@ template <class Real>
 auto MomentumKeeper<Real>::motion_of(const Particles<Real>& particles) -> Motion {
   Motion motion;
   motion.known = true;
+  motion.mass = total_mass(particles);
+  motion.momentum = linear_momentum(particles);
   const Grid& grid = particles.grid();
   for_each_node(grid, [&](std::size_t, int r, int c) {
-    const auto m = double(particles.mass.at(r, c));
-    const Vec3 velocity = particles.velocity_at(r, c);
-    motion.mass += m;
-    motion.centre += m * particles.local_position_at(r, c);
-    motion.momentum += m * velocity;
+    motion.centre += double(particles.mass.at(r, c)) * particles.local_position_at(r, c);
   });
   motion.centre /= motion.mass;
   const Vec3 mean = motion.momentum / motion.mass;

@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/motion.h"
 
 namespace weft {
 namespace {
@@ -36,16 +38,8 @@ double extent(const std::vector<SpringFamily>& springs, const Grid& grid) {
 /// Twice the energy of the mean velocity, J. 0 where a node is pinned.
 template <class Real>
 double common_energy(const Particles<Real>& particles) {
-  double mass = 0;
-  Vec3 momentum(0, 0, 0);
-  for (int r = 0; r < particles.grid().rows; ++r) {
-    for (int c = 0; c < particles.grid().cols; ++c) {
-      if (particles.inverse_mass.at(r, c) == 0) return 0;
-      mass += double(particles.mass.at(r, c));
-      momentum += double(particles.mass.at(r, c)) * particles.velocity_at(r, c);
-    }
-  }
-  return momentum.squaredNorm() / mass;
+  if (is_held(particles)) return 0;
+  return linear_momentum(particles).squaredNorm() / total_mass(particles);
 }
 
 }  // namespace
@@ -61,9 +55,8 @@ MotionScale<Real>::MotionScale(const Springs<Real>& springs, const Field<Real>& 
 
 template <class Real>
 void MotionScale<Real>::measure(const Particles<Real>& particles) {
-  mass_ = 0;
+  mass_ = total_mass(particles);
   falls_ = false;
-  for (const Real node : particles.mass.values()) mass_ += static_cast<double>(node);
   kinetic_ = kernels::weighted_square<Real>(particles.mass.row(0), kernels::components(particles.velocity),
                                             particles.grid());
   inner_ = std::max(0.0, kinetic_ - common_energy(particles));

@@ -6,6 +6,8 @@
 #include "cloth/core/random.h"
 #include "cloth/levels/refine.h"
 #include "cloth/levels/settle.h"
+#include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/motion.h"
 
 namespace weft {
 namespace {
@@ -88,16 +90,8 @@ void unfold_from_below(Particles<Real>& sheet, const ClothDescription& cloth, in
 /// m; nothing of a sheet that is held somewhere.
 template <class Real>
 std::optional<Vec3> free_centre(const Particles<Real>& particles) {
-  Vec3 sum = Vec3::Zero();
-  double mass = 0;
-  bool held = false;
-  at_each_node(particles.grid(), [&](int r, int c) {
-    sum += double(particles.mass.at(r, c)) * particles.position_at(r, c);
-    mass += double(particles.mass.at(r, c));
-    held = held || particles.inverse_mass.at(r, c) == Real(0);
-  });
-  if (held) return {};
-  return sum / mass;
+  if (is_held(particles)) return {};
+  return centre_of_mass(particles);
 }
 
 }  // namespace

@@ -27,6 +27,19 @@ bool is_finite(const VectorField<Real>& field) {
 }  // namespace
 
 template <class Real>
+double total_mass(const Particles<Real>& particles) {
+  return sum_nodes(particles.grid(), 0.0, [&](int r, int c) { return double(particles.mass.at(r, c)); });
+}
+
+template <class Real>
+Vec3 centre_of_mass(const Particles<Real>& particles) {
+  const Vec3 sum = sum_nodes(particles.grid(), Vec3(0, 0, 0), [&](int r, int c) -> Vec3 {
+    return double(particles.mass.at(r, c)) * particles.position_at(r, c);
+  });
+  return sum / total_mass(particles);
+}
+
+template <class Real>
 Vec3 linear_momentum(const Particles<Real>& particles) {
   return sum_nodes(particles.grid(), Vec3(0, 0, 0), [&](int r, int c) -> Vec3 {
     return double(particles.mass.at(r, c)) * particles.velocity_at(r, c);
@@ -37,6 +50,16 @@ template <class Real>
 Vec3 angular_momentum(const Particles<Real>& particles) {
   return sum_nodes(particles.grid(), Vec3(0, 0, 0), [&](int r, int c) -> Vec3 {
     return double(particles.mass.at(r, c)) * particles.position_at(r, c).cross(particles.velocity_at(r, c));
+  });
+}
+
+template <class Real>
+Eigen::Matrix3d inertia_about(const Vec3& point, const Particles<Real>& particles) {
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+  return sum_nodes(particles.grid(), none, [&](int r, int c) -> Eigen::Matrix3d {
+    const Vec3 arm = particles.position_at(r, c) - point;
+    return double(particles.mass.at(r, c)) *
+           (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   });
 }
 
@@ -80,10 +103,16 @@ BoundingSphere bounding_sphere(const Particles<Real>& particles) {
   return sphere;
 }
 
+template double total_mass<float>(const Particles<float>&);
+template double total_mass<double>(const Particles<double>&);
+template Vec3 centre_of_mass<float>(const Particles<float>&);
+template Vec3 centre_of_mass<double>(const Particles<double>&);
 template Vec3 linear_momentum<float>(const Particles<float>&);
 template Vec3 linear_momentum<double>(const Particles<double>&);
 template Vec3 angular_momentum<float>(const Particles<float>&);
 template Vec3 angular_momentum<double>(const Particles<double>&);
+template Eigen::Matrix3d inertia_about<float>(const Vec3&, const Particles<float>&);
+template Eigen::Matrix3d inertia_about<double>(const Vec3&, const Particles<double>&);
 template double kinetic_energy<float>(const Particles<float>&);
 template double kinetic_energy<double>(const Particles<double>&);
 template double gravitational_energy<float>(const Particles<float>&, const Vec3&);

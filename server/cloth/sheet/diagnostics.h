@@ -4,12 +4,21 @@
 
 namespace weft {
 
+/// kg, summed in double.
+template <class Real>
+double total_mass(const Particles<Real>& particles);
+/// Of mass, in the world, m, summed in double.
+template <class Real>
+Vec3 centre_of_mass(const Particles<Real>& particles);
 /// kg m/s, summed in double.
 template <class Real>
 Vec3 linear_momentum(const Particles<Real>& particles);
 /// kg m2/s about the world's origin, summed in double.
 template <class Real>
 Vec3 angular_momentum(const Particles<Real>& particles);
+/// kg m2, about a point in the world, summed in double.
+template <class Real>
+Eigen::Matrix3d inertia_about(const Vec3& point, const Particles<Real>& particles);
 /// J, of the free nodes.
 template <class Real>
 double kinetic_energy(const Particles<Real>& particles);

@@ -7,6 +7,7 @@
 #include "cloth/kernels/components.h"
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/diagnostics.h"
 
 namespace weft {
 namespace {
@@ -50,21 +51,15 @@ RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<c
   RigidMotion motion;
   if (held) return motion;
   motion.still = false;
-  double mass = 0;
-  for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
-    mass += m;
-    motion.centre += m * position;
-    motion.velocity += m * at<Real>(velocity, i);
-  });
-  motion.centre /= mass;
-  motion.velocity /= mass;
+  motion.centre = centre_of_mass(particles);
+  for_each_free(particles,
+                [&](std::size_t i, double m, const Vec3&) { motion.velocity += m * at<Real>(velocity, i); });
+  motion.velocity /= total_mass(particles);
   Vec3 angular_momentum(0, 0, 0);
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for_each_free(particles, [&](std::size_t i, double m, const Vec3& position) {
-    const Vec3 arm = position - motion.centre;
-    angular_momentum += m * arm.cross(at<Real>(velocity, i));
-    inertia += m * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    angular_momentum += m * (position - motion.centre).cross(at<Real>(velocity, i));
   });
+  const Eigen::Matrix3d inertia = inertia_about(motion.centre, particles);
   // Nodes in one line do not turn about it.
   motion.spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
   return motion;

@@ -1,7 +1,7 @@
 #pragma once
-#include "cloth/contact/recovery/contact.h"
 #include "cloth/contact/search/feature_search.h"
 #include "cloth/core/particles.h"
+#include "cloth/core/substep.h"
 
 namespace weft {
 

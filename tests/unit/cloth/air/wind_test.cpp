@@ -11,6 +11,10 @@
 #include "busy_scene.h"
 #include "cloth/air/node_air.h"
 
+#include "cloth/air/eddies.h"
+#include "cloth/air/gust_series.h"
+#include "cloth/air/wind.h"
+
 namespace weft {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "bodies.h"
 #include "busy_scene.h"
+#include "cloth/bodies/body_contact.h"
 #include "cloth/bodies/contact_manifold.h"
 #include "cloth/world/state_hash.h"
 #include "meshes.h"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cloth/contact/recovery/contact.h"
+#include "cloth/contact/search/broad_phase.h"
+#include "cloth/shapes/solid.h"
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/world/colliders.h"
 #include "fixtures.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "cloth/bodies/collider_description.h"
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/shapes/triangle_mesh.h"
 #include "cloth/world/simulation.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "cloth/core/effect_description.h"
 #include "cloth/world/simulation.h"
 #include "cloth/world/state_hash.h"
 #include "fixtures.h"

@@ -1,6 +1,7 @@
 // Hands on a cloth, and pins set and taken away in motion.
 #include <gtest/gtest.h>
 
+#include "cloth/forces/grab.h"
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
 

@@ -3,6 +3,9 @@
 
 #include "busy_scene.h"
 #include "cloth/sheet/diagnostics.h"
+
+#include "cloth/guard/guard_event.h"
+#include "cloth/guard/step_guard.h"
 #include "faults.h"
 
 namespace weft {

@@ -1,5 +1,8 @@
 #include "cloth/kernels/push_kernels.h"
 
+#include "cloth/kernels/components.h"
+#include "cloth/kernels/uniform.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

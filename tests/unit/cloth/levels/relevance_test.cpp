@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "cloth/shapes/bounding_sphere.h"
 #include "cloth/sheet/diagnostics.h"
 #include "fixtures.h"
 

@@ -39,6 +39,19 @@ TYPED_TEST(Diagnostics, MomentaAndEnergiesByHand) {
   EXPECT_NEAR(gravitational_energy(p, {0, -10, 0}), 20.0, 1e-12);
 }
 
+TYPED_TEST(Diagnostics, MassAndInertiaByHand) {
+  // 2 kg at (1,0,0), 1 kg each at (0.5,0.5,0), (-0.5,-0.5,0) and (0,2,0).
+  const Particles<TypeParam> p = two_movers<TypeParam>();
+  EXPECT_EQ(total_mass(p), 5);
+  EXPECT_LT((centre_of_mass(p) - Vec3(0.4, 0.4, 0)).norm(), 1e-15);
+  Eigen::Matrix3d inertia;  // sum m (r^2 - r r^T)
+  inertia << 4.5, -0.5, 0, -0.5, 2.5, 0, 0, 0, 7;
+  EXPECT_EQ(inertia_about(Vec3(0, 0, 0), p), inertia);
+  // Parallel axes: about a point it has more than about the centre, by 5 kg times the square of the way.
+  const Vec3 way = Vec3(0.4, 0.4, 0);
+  EXPECT_NEAR(inertia_about(centre_of_mass(p), p)(2, 2), 7 - 5 * way.squaredNorm(), 1e-12);
+}
+
 TYPED_TEST(Diagnostics, AHeldNodeHasNoKineticEnergy) {
   Particles<TypeParam> p = two_movers<TypeParam>();
   p.inverse_mass.at(0, 0) = 0;

@@ -6,6 +6,7 @@
 
 #include "cloth/integrators/symplectic_euler.h"
 #include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/spring_family.h"
 #include "cloth/solver/node_arrays.h"
 #include "cloth/world/cloth.h"
 #include "rig.h"

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "cloth/kernels/link_kernels.h"
 #include "fixtures.h"
 
 namespace weft {

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 
+#include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/conjugate_gradients.h"
 #include "fixtures.h"
 
