@@ -42,8 +42,9 @@ Impact random_impact(std::uint64_t seed) {
   const Vec3 aim = draw.in_box(0.3 * width), way = draw.direction();
   const bool thrown = draw.chance(0.6);
   impact.seconds = thrown ? 1.5 : 1;
-  constexpr double kLongest = 6, kApart = 0.2;  // radii of half a solid, m
-  const double distance = width + kLongest * radius + kApart;
+  // Half a sheet and the aim reach 1.3 widths at most, half a box sqrt(19) radii.
+  constexpr double kApart = 0.2;  // m
+  const double distance = 1.3 * width + 5 * radius + kApart;
   const Vec3 from = thrown ? aim : Vec3(aim - distance * way), to = from + speed * impact.seconds * way;
   cloth.position = thrown ? Vec3(-distance * way) : Vec3(0, 0, 0);
   if (thrown) cloth.velocity = speed * way;

@@ -1,8 +1,8 @@
 #pragma once
-/// Cloths and firm solids that strike each other, drawn from a seed: a sheet of any fabric, size and turn is
-/// thrown at a ball, a box or a capsule that stands, or hangs or floats and has one of them driven through
-/// it; at 1 to 30 m/s, 15 to 60 steps a second, levels 3 to 5, by BDF2 or backward Euler, without air or
-/// damping. The solid may be far thinner than the way of a step.
+/// Cloths and firm solids that strike each other, drawn from a seed: a sheet of cotton, silk, denim or wool,
+/// of any size and turn, is thrown at a ball, a box or a capsule that stands, or hangs or floats and has one
+/// of them driven through it; at 1 to 30 m/s, 15 to 60 steps a second, levels 3 to 5, by BDF2 or backward
+/// Euler, without air or damping. The solid may be far thinner than the way of a step.
 #include <cstdint>
 
 #include "cloth/world/simulation.h"

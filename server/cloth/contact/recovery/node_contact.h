@@ -15,6 +15,7 @@ inline constexpr double kFacing = -0.5;
 /// Of a solid's inner radius: a node farther from it on a tangent plane has slid off its side, from a ball by
 /// 1.1 radii.
 inline constexpr double kSlidOff = 0.5;
+/// What was drawn here along a tangent plane of the shape has slid off its side.
 inline bool is_off_side(const PlacedShape& shape, const Vec3& place) {
   return !shape.may_touch(place, kSlidOff * inner_radius(shape.shape));
 }

@@ -9,10 +9,9 @@
 #include <random>
 
 #include "busy_scene.h"
-#include "cloth/air/node_air.h"
-
 #include "cloth/air/eddies.h"
 #include "cloth/air/gust_series.h"
+#include "cloth/air/node_air.h"
 #include "cloth/air/wind.h"
 
 namespace weft {

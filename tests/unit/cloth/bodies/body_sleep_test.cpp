@@ -7,9 +7,8 @@
 
 #include "bodies.h"
 #include "busy_scene.h"
-#include "cloth/world/state_hash.h"
-
 #include "cloth/sleep/islands.h"
+#include "cloth/world/state_hash.h"
 #include "faults.h"
 
 namespace weft {

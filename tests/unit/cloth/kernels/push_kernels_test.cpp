@@ -1,12 +1,11 @@
 #include "cloth/kernels/push_kernels.h"
 
-#include "cloth/kernels/components.h"
-#include "cloth/kernels/uniform.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "cloth/kernels/components.h"
+#include "cloth/kernels/uniform.h"
 #include "flat_sheet.h"
 
 namespace weft::kernels {
