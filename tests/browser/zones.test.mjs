@@ -37,11 +37,11 @@ test('its slider sets the speed of its air, along the way it blew', async () => 
 });
 
 test('without its fan the curtain hangs down; a reset has the fan again', async () => {
-  await skip(server, 'fan', 1);
+  await skip(server, 'fan', 10);
   await until(page, () => weft.stats.cloths[0].centre[2] < -0.1);
   await page.fill('#zone-0', '0');
   await until(page, () => weft.stats.wind.zones[0].velocity[2] === 0);
-  await skip(server, 'fan', 2);
+  await skip(server, 'fan', 10);
   await until(page, () => weft.stats.cloths[0].centre[2] > -0.05);
   await page.click('#reset');
   await until(page, () => Math.abs(weft.stats.wind.zones[0].velocity[2] + 2.5) < 1e-9);
