@@ -55,6 +55,15 @@ class Recipes:
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return numbers(done.stdout)
 
+    def started_from(self, file):
+        """Where the server puts the nodes of a cloth that starts from a file of the flag."""
+        flag = {"name": "flag", "size": [1.8, 1.2], "levels": {"min": 6, "max": 6}, "nodes": {"file": file}}
+        (self.folder / "again.json").write_text(json.dumps({"cloths": [flag], "effects": [{"type": "gravity"}]}))
+        subprocess.run([os.environ["WEFT_BINARY"], "run", "again.json", "--frames", "1", "--out", "again.csv"], cwd=self.folder,
+                       check=True, capture_output=True, timeout=LIMIT_S)
+        rows = np.loadtxt(self.folder / "again.csv", delimiter=",", skiprows=1, usecols=(0, 4, 5, 6), dtype=np.float32)
+        return rows[rows[:, 0] == 0, 1:]
+
     def test_the_readme(self):
         self.run_recipe("Drive it from a program", document=ROOT / "README.md")
         (written,) = self.folder.glob("seen.*")
@@ -89,9 +98,13 @@ class Recipes:
 
     def test_save_what_came(self):
         self.run_recipe("Save what came")
-        kinds = [line.split(" ")[0] for line in (self.folder / "flag.obj").read_text().splitlines()]
+        lines = [line.split(" ") for line in (self.folder / "flag.obj").read_text().splitlines()]
+        kinds = [kind for kind, *_ in lines]
         # flag.json: one cloth; who tells no camera sees it at its finest level, 6: 65 x 65 nodes, 64 x 64 faces.
-        self.assertEqual([kinds.count(kind) for kind in "ovf"], [1, 65 * 65, 64 * 64])
+        self.assertEqual([kinds.count(kind) for kind in ("o", "v", "vt", "vn", "f")], [1, 65 * 65, 65 * 65, 65 * 65, 64 * 64])
+        self.assertEqual(lines[0], ["o", "flag"])
+        nodes = np.array([numbers for kind, *numbers in lines if kind == "v"], np.float32)
+        np.testing.assert_array_equal(self.started_from("flag.obj"), nodes)
         data = (self.folder / "flag.glb").read_bytes()
         self.assertEqual((data[:4], int.from_bytes(data[8:12], "little")), (b"glTF", len(data)))
         document = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])

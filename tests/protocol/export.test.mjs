@@ -1,24 +1,8 @@
-// Files that both clients make of frames: .glb by Khronos' validator and three.js, which shows the frames again; .obj line by line.
+// Animated .glb files that both clients make of frames, by Khronos' validator and three.js, which shows the frames again.
 import assert from 'node:assert/strict';
-import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
-import { glbBytes, objText } from '../../protocol/clients/js/weft.js';
+import { test } from 'node:test';
+import { ballVolume, CLIENTS, cloth, frame, polygon, TETRAHEDRON, UPRIGHT, volumeWithin } from './exporting.mjs';
 import { load, positionsOf, seenAt, validate } from './gltf.mjs';
-
-let folder;
-before(() => { folder = mkdtempSync(join(tmpdir(), 'weft-export-')); });
-after(() => rmSync(folder, { recursive: true }));
-
-/** A grid of nodes 1 m apart, from (0, lift, 0). */
-function cloth(index, rows, cols, lift, torn = []) {
-  const nodes = Array.from({ length: rows * cols }, (_, i) => [i % cols, lift, Math.floor(i / cols)]);
-  return { cloth: index, rows, cols, origin: [0, 0, 0], positions: Float32Array.from(nodes.flat()), torn };
-}
-const frame = (time, ...cloths) => ({ stamp: { time, epoch: 0 }, cloths, balls: [], obstacles: [] });
 
 // Cloth 0 becomes coarser, then tears; cloth 3 comes late.
 const FRAMES = [
@@ -27,18 +11,6 @@ const FRAMES = [
   frame(2.5, cloth(0, 2, 3, 1), cloth(3, 2, 2, 5)),
   frame(3, cloth(0, 2, 3, 2, [1]), cloth(3, 2, 2, 6)),
 ];
-
-/** `surfaces`: of the scene's first obstacles, where they have one. */
-function byPython(frames, { scene, surfaces = [] } = {}) {
-  const told = { scene, surfaces, frames: frames.map(({ stamp, cloths, balls, obstacles }) => (
-    { ...stamp, balls, obstacles, cloths: cloths.map((each) => ({ ...each, positions: [...each.positions] })) })) };
-  const { status, stderr } = spawnSync('/usr/bin/python3', [fileURLToPath(new URL('export_frames.py', import.meta.url)), folder],
-    { input: JSON.stringify(told), encoding: 'utf8' });
-  if (status !== 0) throw new RangeError(stderr);
-  return { glb: new Uint8Array(readFileSync(join(folder, 'frames.glb'))), obj: readFileSync(join(folder, 'frame.obj'), 'utf8') };
-}
-const byJavaScript = (frames, { scene, surfaces = [] } = {}) => (
-  { glb: glbBytes(frames, { scene, surfaces: new Map(surfaces.entries()) }), obj: objText(frames.at(-1)) });
 
 /** What is seen of cloths at a time since the first frame, by name. */
 const clothsAt = (gltf, time) => Object.fromEntries(seenAt(gltf, time).filter(({ name }) => name.startsWith('cloth')).map((mesh) =>
@@ -53,7 +25,6 @@ const LONG = Array.from({ length: 130 }, (_, i) => {
     balls: i >= 10 && i < 20 ? [{ ball: 7, position: [i, 2, 0], radius: 0.5, motion: 'dynamic' }] : [],
     obstacles: i > 0 ? [{ obstacle: 1, position: [0, i / 8, 5], quaternion: [Math.cos(turn / 2), 0, Math.sin(turn / 2), 0] }] : [] };
 });
-const UPRIGHT = [1, 0, 0, 0];
 const SCENE = {
   cloths: [{ cloth: 0, name: 'sheet' }],
   obstacles: [
@@ -63,35 +34,19 @@ const SCENE = {
     { shape: 'plane', position: [0, -1, 0], normal: [0, 1, 0] },
   ],
 };
-const TETRAHEDRON = { vertices: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
 
-/** What a mesh encloses, m3, by its triangles as seen from outside: the sum of a . (b x c) / 6. */
+/** What a mesh encloses, m3. */
 function volumeOf(mesh) {
-  const positions = positionsOf(mesh), { index } = mesh.geometry;
-  const node = (i) => positions.slice(3 * index.getX(i), 3 * index.getX(i) + 3);
-  let sum = 0;
-  for (let i = 0; i < index.count; i += 3) {
-    const [a, b, c] = [node(i), node(i + 1), node(i + 2)];
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return sum / 6;
+  const positions = positionsOf(mesh);
+  return volumeWithin(Array.from(mesh.geometry.index.array, (node) => positions.slice(3 * node, 3 * node + 3)).flat());
 }
-const EDGES = 32, QUARTER = 8;  // of the clients' balls
-/** A regular polygon in a circle. */
-const polygon = (radius) => EDGES / 2 * radius ** 2 * Math.sin(2 * Math.PI / EDGES);
-/** The clients' ball: frustums of polygons, each of height (A + B + sqrt(A B)) / 3. */
-const ballVolume = (radius) => Array.from({ length: 2 * QUARTER }, (_, i) => {
-  const [from, to] = [i, i + 1].map((ring) => ring * Math.PI / (2 * QUARTER));
-  const [a, b] = [from, to].map((polar) => polygon(radius * Math.sin(polar)));
-  return radius * (Math.cos(from) - Math.cos(to)) * (a + b + Math.sqrt(a * b)) / 3;
-}).reduce((sum, part) => sum + part, 0);
 
 const near = (found, expected, what) => {
   assert.equal(found.length, expected.length, what);
   found.forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-5, `${what}: ${found} is not ${expected}`));
 };
 
-for (const [language, write] of [['JavaScript', byJavaScript], ['Python', byPython]]) {
+for (const [language, write] of CLIENTS) {
   test(`${language}: a .glb is valid, and shows each frame at its time`, async () => {
     const { glb } = write(FRAMES);
     const gltf = await load(glb);
@@ -125,12 +80,6 @@ for (const [language, write] of [['JavaScript', byJavaScript], ['Python', byPyth
     for (const [name, volume] of Object.entries(expected)) near([volumes[name]], [volume], `${name}, m3`);
   });
 
-  test(`${language}: an .obj has each cloth's nodes and the faces that are not torn`, () => {
-    assert.deepEqual(write(FRAMES).obj.split('\n'), [
-      'o cloth-0', 'v 0 2 0', 'v 1 2 0', 'v 2 2 0', 'v 0 2 1', 'v 1 2 1', 'v 2 2 1', 'f 1 4 5 2',
-      'o cloth-3', 'v 0 6 0', 'v 1 6 0', 'v 0 6 1', 'v 1 6 1', 'f 7 9 10 8', '']);
-  });
-
   test(`${language}: a single frame, and one without a face, are valid`, async () => {
     for (const only of [frame(0, cloth(0, 2, 2, 1)), frame(0, cloth(0, 2, 2, 1, [0]))]) {
       await validate(write([only]).glb);
@@ -143,7 +92,3 @@ for (const [language, write] of [['JavaScript', byJavaScript], ['Python', byPyth
     assert.throws(() => write([FRAMES[0], { ...FRAMES[1], stamp: { time: 9, epoch: 1 } }]), /epoch/);
   });
 }
-
-test('positions from an origin near the cloth are written in the world', () => {
-  assert.match(objText(frame(0, { ...cloth(0, 2, 2, 1), origin: [16, -32, 0] })), /^o cloth-0\nv 16 -31 0\n/);
-});

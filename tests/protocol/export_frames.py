@@ -19,8 +19,9 @@ def frame(f, told):
 folder = pathlib.Path(sys.argv[1])
 told = json.load(sys.stdin)
 frames = [frame(f, each) for f, each in enumerate(told["frames"])]
+surfaces = {index: surface for index, surface in enumerate(told["surfaces"]) if surface}
 try:
-    weft.write_glb(folder / "frames.glb", frames, told.get("scene"), dict(enumerate(told["surfaces"])))
+    weft.write_glb(folder / "frames.glb", frames, told.get("scene"), surfaces)
 except ValueError as error:
     sys.exit(str(error))
-weft.write_obj(folder / "frame.obj", frames[-1])
+weft.write_obj(folder / "frame.obj", frames[-1], told.get("scene"), surfaces)

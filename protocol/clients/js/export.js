@@ -1,4 +1,5 @@
-/** Received frames as files: Wavefront .obj of cloths, animated .glb (glTF 2.0) of all that a scene shows; lengths in m, y up. */
+/** Received frames as files: Wavefront .obj and animated .glb (glTF 2.0) of all that a scene shows; lengths in m, y up. */
+import { bodiesOf } from './body_meshes.js';
 import { Glb } from './glb.js';
 import { addBalls, addObstacles } from './glb_bodies.js';
 import { normalsOf, quads } from './surfaces.js';
@@ -8,28 +9,41 @@ import { normalsOf, quads } from './surfaces.js';
  * @typedef {import('./types.js').Frame} Frame
  * @typedef {{png: Uint8Array, repeat: [number, number], roughness?: number}} Fabric a picture that is repeated so often along u and v,
  *   from the lower left corner on
- * @typedef {object} GlbOptions
+ * @typedef {object} SceneOptions
  * @property {any} [scene] the `scene` message: cloths are called as there, and its obstacles are drawn
- * @property {Map<number, import('./types.js').Surface>} [surfaces] of those obstacles that are meshes, as `surface` tells them
- * @property {(cloth: number) => Fabric | undefined} [fabricOf] what a cloth is made of
+ * @property {import('./body_meshes.js').Surfaces} [surfaces] of those obstacles that are meshes, as `surface` tells them
+ * @typedef {SceneOptions & {fabricOf?: (cloth: number) => Fabric | undefined}} GlbOptions fabricOf: what a cloth is made of
  */
 
 const LONGEST = 60;  // frames that one mesh shows: programs give each of its targets a place on the graphics card
 
 /**
- * The text of an .obj file: one object `cloth-INDEX` a cloth, quads, torn faces left out.
+ * The text of an .obj file: an object each cloth, of quads with texture coordinates (u, 1 - v), without those that are torn; then an
+ * object each ball and, if `scene` tells of them, each obstacle, planes left out; all with normals.
  * @param {Frame} frame
+ * @param {SceneOptions} [options]
  * @returns {string}
  */
-export function objText(frame) {
-  const lines = [];
+export function objText(frame, { scene, surfaces = new Map() } = {}) {
+  /** @type {string[]} */ const lines = [];
   let before = 1;  // vertices count from 1 through the file
   for (const cloth of frame.cloths) {
-    lines.push(`o cloth-${cloth.cloth}`);
-    const positions = cloth.positions.map((value, i) => value + cloth.origin[i % 3]);
-    for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}`);
-    for (const quad of quads(cloth)) lines.push(`f ${quad.map((node) => node + before).join(' ')}`);
+    const { positions, origin } = cloth;
+    lines.push(`o ${nameOf(cloth.cloth, scene)}`);
+    pushRows(lines, 'v', 3, Array.from(positions, (value, i) => value + origin[i % 3]));
+    pushRows(lines, 'vt', 2, coordinates(cloth).map((value, i) => (i % 2 === 0 ? value : 1 - value)));
+    pushRows(lines, 'vn', 3, normalsOf(positions, trianglesOf(cloth)));
+    for (const quad of quads(cloth)) lines.push(`f ${quad.map((node) => Array(3).fill(node + before).join('/')).join(' ')}`);
     before += cloth.rows * cloth.cols;
+  }
+  for (const { name, shape: { positions, normals, triangles } } of bodiesOf(frame, scene?.obstacles ?? [], surfaces)) {
+    lines.push(`o ${name}`);
+    pushRows(lines, 'v', 3, positions);
+    pushRows(lines, 'vn', 3, normals);
+    for (let i = 0; i < triangles.length; i += 3) {
+      lines.push(`f ${Array.from(triangles.subarray(i, i + 3), (node) => `${node + before}//${node + before}`).join(' ')}`);
+    }
+    before += positions.length / 3;
   }
   return `${lines.join('\n')}\n`;
 }
@@ -48,7 +62,7 @@ export function glbBytes(frames, { scene, surfaces = new Map(), fabricOf = () =>
   const wear = tailor(glb, fabricOf, plain);
   for (const index of new Set(frames.flatMap(({ cloths }) => cloths.map(({ cloth }) => cloth)))) {
     const shown = frames.map(({ cloths }) => cloths.find(({ cloth }) => cloth === index));
-    const name = scene?.cloths.find((/** @type {any} */ told) => told.cloth === index)?.name || `cloth-${index}`;
+    const name = nameOf(index, scene);
     for (let from = 0, to; from < shown.length; from = to) {
       const mesh = meshOf(shown[from]);
       for (to = from + 1; to < shown.length && to - from < LONGEST && meshOf(shown[to]) === mesh;) ++to;
@@ -62,6 +76,24 @@ export function glbBytes(frames, { scene, surfaces = new Map(), fabricOf = () =>
   addObstacles(glb, frames, times, scene?.obstacles ?? [], surfaces);
   return glb.bytes();
 }
+
+/** As the scene calls it, else by its place. @param {number} cloth @param {any} scene @returns {string} */
+const nameOf = (cloth, scene) => scene?.cloths.find((/** @type {any} */ told) => told.cloth === cloth)?.name || `cloth-${cloth}`;
+
+/** @param {Cloth} cloth */
+const trianglesOf = (cloth) => Uint32Array.from(quads(cloth).flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
+
+/** Lines of `size` numbers each. @param {string[]} lines @param {string} keyword @param {number} size @param {ArrayLike<number>} values */
+function pushRows(lines, keyword, size, values) {
+  for (let i = 0; i < values.length; i += size) {
+    let line = keyword;
+    for (let k = i; k < i + size; ++k) line += ` ${digits(values[k])}`;
+    lines.push(line);
+  }
+}
+
+/** Nine digits read back to the same float; what is no float, far from the world's origin, has all of its digits. @param {number} value */
+const digits = (value) => (Math.fround(value) === value ? Number(value.toPrecision(9)) : value);
 
 /** Since the first frame, s. @param {Frame[]} frames */
 function timesOf(frames) {
@@ -103,7 +135,7 @@ const meshOf = (cloth) => (cloth && cloth.torn.length < (cloth.rows - 1) * (clot
  *   shown from frame `from` until frame `to`
  */
 function addSpan(glb, { name, cloths, from, to, times, material, repeat }) {
-  const triangles = Uint32Array.from(quads(cloths[0]).flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
+  const triangles = trianglesOf(cloths[0]);
   const [first, ...later] = cloths.map(({ positions }) => ({ positions, normals: normalsOf(positions, triangles) }));
   const add = (/** @type {Float32Array} */ values) => glb.add(values, 'VEC3');
   const since = (/** @type {'positions'|'normals'} */ what) => (/** @type {typeof first} */ frame) =>

@@ -1,5 +1,6 @@
 /** Balls and obstacles of frames as nodes of a .glb that move. */
-import { trianglesOf, unitBall } from './surfaces.js';
+import { ballName, poseOf, shapesOf } from './body_meshes.js';
+import { unitBall } from './surfaces.js';
 
 /**
  * @typedef {import('./glb.js').Glb} Glb
@@ -34,7 +35,7 @@ export function addBalls(glb, frames, times) {
     let last = /** @type {import('./types.js').Ball} */ (shown.find(Boolean));  // where it is before it comes, and stays when it is gone
     const places = shown.map((ball) => [...(last = ball ?? last).position]);
     const sizes = shown.map((ball) => Array(3).fill(ball?.radius ?? 0));
-    const node = glb.addNode({ name: `ball-${id}`, mesh, translation: places[0], scale: sizes[0] });
+    const node = glb.addNode({ name: ballName(id), mesh, translation: places[0], scale: sizes[0] });
     if (differ(places)) glb.animate(node, 'translation', 'LINEAR', times, places.flat(), 'VEC3');
     if (differ(sizes)) glb.animate(node, 'scale', 'STEP', times, sizes.flat(), 'VEC3');
   }
@@ -43,24 +44,15 @@ export function addBalls(glb, frames, times) {
 /**
  * Each as `obstacle-INDEX`, by its place in the scene.
  * @param {Glb} glb @param {Frame[]} frames @param {number[]} times
- * @param {Obstacle[]} obstacles @param {Map<number, import('./types.js').Surface>} surfaces
+ * @param {Obstacle[]} obstacles @param {import('./body_meshes.js').Surfaces} surfaces
  */
 export function addObstacles(glb, frames, times, obstacles, surfaces) {
-  obstacles.forEach((home, index) => {
-    const shape = trianglesOf(home, surfaces.get(index));
-    if (!shape || !('quaternion' in home)) return;
-    const poses = frames.map((frame) => frame.obstacles.find(({ obstacle }) => obstacle === index) ?? home);
+  for (const { index, name, home, shape } of shapesOf(obstacles, surfaces)) {
+    const poses = frames.map((frame) => poseOf(index, home, frame));
     const places = poses.map(({ position }) => [...position]);
-    const turns = poses.map(({ quaternion: [w, x, y, z] }) => unit([x, y, z, w]));
-    const name = `obstacle-${index}`;
+    const turns = poses.map(({ turn: [w, x, y, z] }) => [x, y, z, w]);
     const node = glb.addNode({ name, mesh: addShape(glb, name, shape, SOLID), translation: places[0], rotation: turns[0] });
     if (differ(places)) glb.animate(node, 'translation', 'LINEAR', times, places.flat(), 'VEC3');
     if (differ(turns)) glb.animate(node, 'rotation', 'LINEAR', times, turns.flat(), 'VEC4');
-  });
-}
-
-/** Sent as floats, it is one to seven digits. @param {number[]} quaternion */
-function unit(quaternion) {
-  const length = Math.hypot(...quaternion);
-  return quaternion.map((part) => part / length);
+  }
 }

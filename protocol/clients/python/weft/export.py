@@ -1,4 +1,4 @@
-"""Received frames as files: .obj of cloths, animated .glb of all that a scene shows, .npz for learning; lengths in m, y up."""
+"""Received frames as files: .obj and animated .glb of all that a scene shows, .npz for learning; lengths in m, y up."""
 from __future__ import annotations
 
 import itertools
@@ -8,29 +8,42 @@ import typing
 import numpy as np
 import numpy.typing as npt
 
+from .body_meshes import Surfaces, bodies_of
 from .glb import Glb
 from .glb_bodies import add_balls, add_obstacles
-from .surfaces import normals_of, quads
+from .surfaces import Floats, Nodes, normals_of, quads
 from .types import Array, Cloth, Frame, Message
 
 _LONGEST = 60  # frames that one mesh shows: programs give each of its targets a place on the graphics card
 Path = typing.Union[str, "os.PathLike[str]"]
 
 
-def write_obj(path: Path, frame: Frame) -> None:
-    """One object `cloth-INDEX` a cloth, quads, torn faces left out."""
+def write_obj(path: Path, frame: Frame, scene: typing.Optional[Message] = None, surfaces: typing.Optional[Surfaces] = None) -> None:
+    """An object each cloth, of quads with texture coordinates (u, 1 - v), without those that are torn; then an object each ball and,
+    if `scene` (the message, as a client has it) tells of them, each obstacle, planes left out; all with normals. `surfaces`: of
+    obstacles that are meshes, as `surface` tells them."""
     lines, before = [], 1  # vertices count from 1 through the file
     for cloth in frame.cloths:
-        lines.append(f"o cloth-{cloth.cloth}")
-        lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in cloth.positions.reshape(-1, 3).tolist()]
-        lines += [f"f {a} {b} {c} {d}" for a, b, c, d in (quads(cloth) + before).tolist()]
-        before += cloth.rows * cloth.cols
+        positions = cloth.positions.reshape(-1, 3)
+        u, v = _coordinates(cloth).T
+        lines.append(f"o {_name(cloth.cloth, scene)}")
+        lines += _obj_lines("v", positions)
+        lines += _obj_lines("vt", np.stack([u, 1 - v], axis=-1))
+        lines += _obj_lines("vn", normals_of(positions, _triangles(cloth)))
+        lines += ["f " + " ".join(f"{node}/{node}/{node}" for node in quad) for quad in (quads(cloth) + before).tolist()]
+        before += len(positions)
+    for name, shape in bodies_of(frame, _obstacles(scene), surfaces or {}):
+        lines.append(f"o {name}")
+        lines += _obj_lines("v", shape.positions)
+        lines += _obj_lines("vn", shape.normals)
+        lines += [f"f {a}//{a} {b}//{b} {c}//{c}" for a, b, c in (shape.nodes.astype(np.int64) + before).tolist()]
+        before += len(shape.positions)
     with open(path, "w", encoding="ascii") as out:
         out.write("\n".join(lines) + "\n")
 
 
 def write_glb(path: Path, frames: typing.Sequence[Frame], scene: typing.Optional[Message] = None,
-              surfaces: typing.Optional[typing.Mapping[int, Message]] = None) -> None:
+              surfaces: typing.Optional[Surfaces] = None) -> None:
     """An animation that begins at 0 s. A cloth is a mesh with a morph target a frame: one after another, each of 60 frames at most,
     and another from where its level or its tears change. Balls are nodes that move, and so are obstacles if `scene` (the message,
     as a client has it) tells of them, planes left out; `surfaces`: of those that are meshes, as `surface` tells them. Raises
@@ -38,7 +51,6 @@ def write_glb(path: Path, frames: typing.Sequence[Frame], scene: typing.Optional
     times = _times(frames)
     glb = Glb()
     material = glb.add_material({"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}})
-    names = {told["cloth"]: told.get("name") for told in scene["cloths"]} if scene else {}
     for index in sorted({cloth.cloth for frame in frames for cloth in frame.cloths}):
         shown = [next((cloth for cloth in frame.cloths if cloth.cloth == index), None) for frame in frames]
         for mesh, group in itertools.groupby(range(len(shown)), lambda i: _mesh(shown[i])):
@@ -47,9 +59,9 @@ def write_glb(path: Path, frames: typing.Sequence[Frame], scene: typing.Optional
                 # The next mesh takes over at its own first frame, and this one has to be there by then.
                 part = span[begin:begin + _LONGEST + 1]
                 end = part[0] + min(len(part), _LONGEST)
-                _add_span(glb, names.get(index) or f"cloth-{index}", [shown[i] for i in part], part[0], end, times, material)
+                _add_span(glb, _name(index, scene), [shown[i] for i in part], part[0], end, times, material)
     add_balls(glb, frames, times)
-    add_obstacles(glb, frames, times, scene.get("obstacles", []) if scene else [], surfaces or {})
+    add_obstacles(glb, frames, times, _obstacles(scene), surfaces or {})
     with open(path, "wb") as out:
         out.write(glb.bytes())
 
@@ -79,6 +91,33 @@ def write_npz(path: Path, frames: typing.Sequence[Frame], wind: Array, cloth: in
                         wind=np.broadcast_to(winds, (len(frames), 3)), balls=balls)
 
 
+def _name(cloth: int, scene: typing.Optional[Message]) -> str:
+    """As the scene calls it, else by its place."""
+    told = next((each.get("name") for each in scene["cloths"] if each["cloth"] == cloth), None) if scene else None
+    return told or f"cloth-{cloth}"
+
+
+def _obstacles(scene: typing.Optional[Message]) -> typing.Sequence[Message]:
+    obstacles: typing.Sequence[Message] = scene.get("obstacles", []) if scene else []
+    return obstacles
+
+
+def _triangles(cloth: Cloth) -> Nodes:
+    return quads(cloth)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.uint32)
+
+
+def _coordinates(cloth: Cloth) -> Floats:
+    """u, v of each node: from 0 to 1 along its columns and its rows."""
+    v, u = np.meshgrid(*(np.linspace(0, 1, count) for count in cloth.positions.shape[:2]), indexing="ij")
+    coordinates: Floats = np.stack([u, v], axis=-1).reshape(-1, 2).astype(np.float32)
+    return coordinates
+
+
+def _obj_lines(keyword: str, values: Floats) -> typing.List[str]:
+    """Nine digits read back to the same float."""
+    return [" ".join([keyword, *(f"{value:.9g}" for value in row)]) for row in values.tolist()]
+
+
 def _times(frames: typing.Sequence[Frame]) -> npt.NDArray[np.float64]:
     """Since the first frame, s."""
     if not frames:
@@ -105,13 +144,12 @@ def _add_span(glb: Glb, name: str, shown: typing.Sequence[typing.Optional[Cloth]
               times: npt.NDArray[np.float64], material: int) -> None:
     """A mesh that is seen from frame `begin` until frame `end`."""
     cloths = [cloth for cloth in shown if cloth is not None]
-    triangles = quads(cloths[0])[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.uint32)
+    triangles = _triangles(cloths[0])
     positions = [cloth.positions.reshape(-1, 3) for cloth in cloths]
     normals = [normals_of(each, triangles) for each in positions]
-    v, u = np.meshgrid(*(np.linspace(0, 1, count) for count in cloths[0].positions.shape[:2]), indexing="ij")
     primitive: Message = {
         "attributes": {"POSITION": glb.add(positions[0]), "NORMAL": glb.add(normals[0]),
-                       "TEXCOORD_0": glb.add(np.stack([u, v], axis=-1).reshape(-1, 2))},
+                       "TEXCOORD_0": glb.add(_coordinates(cloths[0]))},
         "indices": glb.add(triangles.reshape(-1)), "material": material}
     mesh: Message = {"name": name, "primitives": [primitive]}
     if len(cloths) > 1:

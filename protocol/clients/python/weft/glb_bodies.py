@@ -5,8 +5,9 @@ import typing
 
 import numpy as np
 
+from .body_meshes import Surfaces, ball_name, pose_of, shapes_of
 from .glb import Glb
-from .surfaces import Triangles, triangles_of, unit_ball
+from .surfaces import Triangles, unit_ball
 from .types import Array, Frame, Message
 
 _BALL, _SOLID = [0.75, 0.11, 0.1, 1], [0.48, 0.44, 0.38, 1]  # linear red, green, blue, opacity
@@ -36,23 +37,18 @@ def add_balls(glb: Glb, frames: typing.Sequence[Frame], times: Array) -> None:
         last = next(ball for ball in shown if ball is not None)  # where it is before it comes, and stays when it is gone
         places = np.array([(last := ball or last).position for ball in shown])
         sizes = np.array([[ball.radius if ball else 0.0] * 3 for ball in shown])
-        node = glb.add_node({"name": f"ball-{each}", "mesh": mesh, "translation": places[0].tolist(), "scale": sizes[0].tolist()})
+        node = glb.add_node({"name": ball_name(each), "mesh": mesh, "translation": places[0].tolist(), "scale": sizes[0].tolist()})
         _animate(glb, node, "translation", "LINEAR", times, places)
         _animate(glb, node, "scale", "STEP", times, sizes)
 
 
 def add_obstacles(glb: Glb, frames: typing.Sequence[Frame], times: Array, obstacles: typing.Sequence[Message],
-                  surfaces: typing.Mapping[int, Message]) -> None:
+                  surfaces: Surfaces) -> None:
     """Each as `obstacle-INDEX`, by its place in the scene."""
-    for index, home in enumerate(obstacles):
-        shape = triangles_of(home, surfaces.get(index))
-        if shape is None:
-            continue
-        moved = [next((each for each in frame.obstacles if each.obstacle == index), None) for frame in frames]
-        places = np.array([each.position if each else home["position"] for each in moved])
-        turns = np.roll(np.array([each.quaternion if each else home["quaternion"] for each in moved], np.float64), -1, axis=1)  # x, y, z, w
-        turns /= np.linalg.norm(turns, axis=1, keepdims=True)  # sent as floats, they are one to seven digits
-        name = f"obstacle-{index}"
+    for index, name, shape in shapes_of(obstacles, surfaces):
+        poses = [pose_of(index, obstacles[index], frame) for frame in frames]
+        places = np.array([position for position, _ in poses])
+        turns = np.array([(x, y, z, w) for _, (w, x, y, z) in poses])
         node = glb.add_node({"name": name, "mesh": _add_shape(glb, name, shape, _SOLID), "translation": places[0].tolist(),
                              "rotation": turns[0].tolist()})
         _animate(glb, node, "translation", "LINEAR", times, places)
