@@ -52,9 +52,8 @@ void secure(asio::io_context& io, Transport& stream, const Url& url, const Clien
   } catch (const std::runtime_error& error) {
     throw ConnectionError(error.what());
   }
-  Transport::Tls& tls = begin_client_tls(stream, context, url, security);
   std::optional<error_code> result;
-  tls.async_handshake(asio::ssl::stream_base::client, [&](error_code error) { result = error; });
+  begin_client_tls(stream, context, url, security, [&](error_code error) { result = error; });
   run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
   if (*result) throw ConnectionError("no TLS with " + host_header(url) + ": " + result->message());
 }

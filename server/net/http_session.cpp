@@ -68,13 +68,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         tcp(), buffer_, [self = shared_from_this(), certificate](error_code error, bool tls) {
           if (error) return self->end();
           if (!tls) return self->read();
-          self->stream_.begin_tls(certificate)
-              .async_handshake(boost::asio::ssl::stream_base::server, self->buffer_.data(),
-                               [self](error_code failed, std::size_t used) {
-                                 self->buffer_.consume(used);
-                                 if (failed) return self->cut();
-                                 self->read();
-                               });
+          self->stream_.begin_tls(certificate);
+          self->stream_.shake_hands(boost::asio::ssl::stream_base::server, self->buffer_.data(),
+                                    [self](error_code failed, std::size_t used) {
+                                      self->buffer_.consume(used);
+                                      if (failed) return self->cut();
+                                      self->read();
+                                    });
         });
   }
 

@@ -51,11 +51,10 @@ void LoadViewer::leave() {
 }
 
 void LoadViewer::begin_tls() {
-  begin_client_tls(ws_.next_layer(), tls_, url_, security_)
-      .async_handshake(asio::ssl::stream_base::client, [self = shared_from_this()](error_code error) {
-        if (error) return self->fail("TLS", error);
-        self->shake_hands();
-      });
+  begin_client_tls(ws_.next_layer(), tls_, url_, security_, [self = shared_from_this()](error_code error) {
+    if (error) return self->fail("TLS", error);
+    self->shake_hands();
+  });
 }
 
 void LoadViewer::shake_hands() {

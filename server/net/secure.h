@@ -12,10 +12,10 @@
 
 namespace weft::net {
 
-/// Begins TLS on a stream that is connected, with whom the URL names; a handshake on the returned stream
-/// comes next.
-inline Transport::Tls& begin_client_tls(Transport& stream, TlsContext context, const Url& url,
-                                        const ClientSecurity& security) {
+/// Begins TLS on a stream that is connected, with whom the URL names; handler(error_code) after the
+/// handshake.
+inline void begin_client_tls(Transport& stream, TlsContext context, const Url& url,
+                             const ClientSecurity& security, AnyHandler handler) {
   Transport::Tls& tls = stream.begin_tls(std::move(context));
   const std::string name = unbracketed(url.host);
   if (security.check_certificate) {
@@ -24,7 +24,7 @@ inline Transport::Tls& begin_client_tls(Transport& stream, TlsContext context, c
     tls.set_verify_mode(boost::asio::ssl::verify_none);
   }
   SSL_set_tlsext_host_name(tls.native_handle(), name.c_str());
-  return tls;
+  stream.shake_hands(boost::asio::ssl::stream_base::client, {}, std::move(handler));
 }
 
 }  // namespace weft::net

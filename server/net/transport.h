@@ -3,19 +3,20 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/basic_waitable_timer.hpp>
-#include <boost/asio/compose.hpp>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/socket_base.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/error.hpp>
 #include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/core/role.hpp>
+#include <boost/container/static_vector.hpp>
 
 namespace weft::net {
 
@@ -28,6 +29,68 @@ using TcpStream =
 using SteadyTimer =
     boost::asio::basic_waitable_timer<std::chrono::steady_clock,
                                       boost::asio::wait_traits<std::chrono::steady_clock>, Executor>;
+
+/// What is called once when an operation has ended, whatever its type. The operations of a Transport take it
+/// and a BufferList, so that they are compiled once: of handlers and buffers of their own types the layers
+/// above have hundreds. Runs on the operation's executor, as all of a connection does.
+class AnyHandler {
+ public:
+  using error_code = boost::beast::error_code;
+
+  /// handler(error_code, std::size_t) or handler(error_code); may be movable only.
+  template <class Handler>
+  requires(!std::is_same_v<std::decay_t<Handler>, AnyHandler>)
+      // NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload): given as a
+      // handler
+      AnyHandler(Handler&& handler)
+      : handler_(std::make_unique<Of<std::decay_t<Handler>>>(std::forward<Handler>(handler))) {}
+
+  void operator()(error_code error, std::size_t count = 0) { Base::call(std::move(handler_), error, count); }
+
+ private:
+  struct Base {
+    virtual ~Base() = default;
+    virtual void call_and_free(std::unique_ptr<Base> self, error_code error, std::size_t count) = 0;
+    static void call(std::unique_ptr<Base> base, error_code error, std::size_t count) {
+      Base& called = *base;
+      called.call_and_free(std::move(base), error, count);
+    }
+  };
+  template <class Handler>
+  struct Of final : Base {
+    explicit Of(Handler&& given) : handler(std::move(given)) {}
+    explicit Of(const Handler& given) : handler(given) {}
+    /// What the handler begins finds the memory of this one free.
+    void call_and_free(std::unique_ptr<Base> self, error_code error, std::size_t count) override {
+      Handler mine(std::move(handler));
+      self.reset();
+      if constexpr (std::is_invocable_v<Handler, error_code, std::size_t>)
+        mine(error, count);
+      else
+        mine(error);
+    }
+    Handler handler;
+  };
+
+  std::unique_ptr<Base> handler_;
+};
+
+/// The first buffers of a sequence that are not empty, as many as one call to the system takes well.
+template <class Buffer>
+class BufferList : public boost::container::static_vector<Buffer, 16> {
+ public:
+  template <class Buffers>
+  static BufferList of(const Buffers& buffers) {
+    BufferList list;
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto it = boost::asio::buffer_sequence_begin(buffers); it != end && list.size() < list.capacity();
+         ++it) {
+      const Buffer buffer(*it);
+      if (buffer.size() > 0) list.push_back(buffer);
+    }
+    return list;
+  }
+};
 
 class Transport {
  public:
@@ -42,29 +105,25 @@ class Transport {
   next_layer_type& next_layer() { return tcp(); }
   const next_layer_type& next_layer() const { return layers_->tcp; }
 
-  /// From now on what is sent and received is encrypted; a handshake on the returned stream comes first.
-  Tls& begin_tls(std::shared_ptr<boost::asio::ssl::context> context) {
-    layers_->context = std::move(context);
-    return layers_->tls.emplace(tcp(), *layers_->context);
-  }
+  /// From now on what is sent and received is encrypted; shake_hands() comes next.
+  Tls& begin_tls(std::shared_ptr<boost::asio::ssl::context> context);
+  /// TLS's handshake; `received`: what has been read of the other side's part. handler(error_code, how much
+  /// of that was used).
+  void shake_hands(boost::asio::ssl::stream_base::handshake_type side, boost::asio::const_buffer received,
+                   AnyHandler handler);
   bool has_tls() const { return layers_->tls.has_value(); }
 
   template <class Buffers, class Handler>
-  auto async_read_some(const Buffers& buffers, Handler&& handler) {
-    if (layers_->tls) return layers_->tls->async_read_some(buffers, std::forward<Handler>(handler));
-    return tcp().async_read_some(buffers, std::forward<Handler>(handler));
+  void async_read_some(const Buffers& buffers, Handler&& handler) {
+    read_some(BufferList<boost::asio::mutable_buffer>::of(buffers), std::forward<Handler>(handler));
   }
   template <class Buffers, class Handler>
-  auto async_write_some(const Buffers& buffers, Handler&& handler) {
-    if (layers_->tls) return layers_->tls->async_write_some(buffers, std::forward<Handler>(handler));
-    return tcp().async_write_some(buffers, std::forward<Handler>(handler));
+  void async_write_some(const Buffers& buffers, Handler&& handler) {
+    write_some(BufferList<boost::asio::const_buffer>::of(buffers), std::forward<Handler>(handler));
   }
 
   /// Says that nothing more is sent, within the time that the TCP stream has; handler(error_code).
-  template <class Handler>
-  auto async_end(Handler&& handler) {
-    return boost::asio::async_compose<Handler, void(error_code)>(End{*this}, handler, tcp());
-  }
+  void async_end(AnyHandler handler);
   /// A WebSocket right on it calls this at its end.
   template <class Handler>
   friend void async_teardown(boost::beast::role_type, Transport& transport, Handler&& handler) {
@@ -79,21 +138,9 @@ class Transport {
     std::optional<Tls> tls;
   };
 
-  struct End {
-    Transport& transport;
-    bool said = false;
-
-    template <class Operation>
-    void operator()(Operation& operation, error_code error = {}) {
-      if (transport.has_tls() && !std::exchange(said, true))
-        return transport.layers_->tls->async_shutdown(std::move(operation));
-      error_code ignored;
-      transport.tcp().socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
-      operation.complete(error);
-    }
-  };
-
   next_layer_type& tcp() { return layers_->tcp; }
+  void read_some(const BufferList<boost::asio::mutable_buffer>& buffers, AnyHandler handler);
+  void write_some(const BufferList<boost::asio::const_buffer>& buffers, AnyHandler handler);
 
   std::unique_ptr<Layers> layers_;  ///< the TLS stream refers to the TCP stream
 };
