@@ -139,6 +139,13 @@ TEST(ClothSleep, SolidsNearItWakeIt) {
   }
   {
     Sleeping cloth;
+    cloth.fall_asleep();
+    cloth.solids = {ball_near({0, 0, 1})};
+    cloth.solids[0].start = near;
+    EXPECT_FALSE(cloth.step()) << "begins near";
+  }
+  {
+    Sleeping cloth;
     cloth.solids = {ball_near(near)};
     cloth.fall_asleep();
     cloth.solids[0].inverse_mass = 1;
