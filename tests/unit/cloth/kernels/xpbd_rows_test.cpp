@@ -93,6 +93,29 @@ TEST(XpbdRows, ASweepMeetsEachSpringOnce) {
   }
 }
 
+// Two colours: springs of one share no node, so that their order says nothing. Within a row the colours are
+// two runs each; between rows those that begin in every other `rows` rows.
+TEST(XpbdRows, SpringsOfAColourShareNoNode) {
+  for (const auto& family : fixture::kLatticeFamilies) {
+    SweptFamily swept(family[0], family[1]);
+    Recorder::runs.clear();
+    sweep<Recorder, false>(swept.layout, swept.springs, swept.sheet.data());
+    const std::size_t a_row = family[1] == 0 ? 1 : 4;
+    std::size_t first_colour = 0;
+    for (int r = 0; family[0] > 0 && r + family[0] < kSweptGrid.rows; ++r) {
+      if (r / family[0] % 2 == 0) first_colour += a_row;
+    }
+    std::set<const double*> lanes;
+    for (std::size_t i = 0; i < Recorder::runs.size(); ++i) {
+      if (family[0] == 0 ? i % 2 == 0 : i == first_colour) lanes.clear();
+      for (const Recorder::Joined& joined : Recorder::runs[i]) {
+        EXPECT_TRUE(lanes.insert(joined.a).second) << family[0] << ", " << family[1];
+        EXPECT_TRUE(lanes.insert(joined.b).second) << family[0] << ", " << family[1];
+      }
+    }
+  }
+}
+
 /// One spring between the first two lanes of a layout of two rows, each end of its own inverse mass.
 struct OneSpring {
   OneSpring(const Vec3& from, const Vec3& to, const Vec3& move_a, const Vec3& move_b) {
