@@ -104,6 +104,7 @@ void SheetProjection<Real>::prepare_springs(const Springs<Real>& springs, const 
 
 template <class Real>
 void SheetProjection<Real>::recall(Real* nodes) const {
+  if (multiplier_.empty()) return;
   for (const auto& family : springs_) kernels::recall(layout_, family, nodes);
 }
 

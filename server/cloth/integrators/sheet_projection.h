@@ -27,6 +27,10 @@ namespace weft {
 template <class Real>
 class SheetProjection {
  public:
+  SheetProjection() = default;
+  SheetProjection(const SheetProjection&) = delete;  // its springs point into its own arrays
+  SheetProjection& operator=(const SheetProjection&) = delete;
+
   /// For substeps of h seconds of nodes of these masses in this layout.
   void prepare(const Sheet<Real>& sheet, const Field<Real>& mass, const kernels::QuarterRows& layout,
                double h);

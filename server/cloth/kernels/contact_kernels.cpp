@@ -82,7 +82,7 @@ template <class Real>
 [[gnu::always_inline]] inline std::uint32_t rows_inside_any(const NodeBlock<Real>& block,
                                                             const Stretch& capsule) {
   const Real *x = block.position.x, *y = block.position.y, *z = block.position.z;
-  const Triple &start = capsule.start, &axis = capsule.axis;
+  const Vector &start = capsule.start, &axis = capsule.axis;
   return rows_where(block, [=](std::size_t i) WEFT_INLINE_LAMBDA -> std::int64_t {
     const double dx = static_cast<double>(x[i]) - start.x;
     const double dy = static_cast<double>(y[i]) - start.y;
@@ -97,7 +97,7 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline std::uint32_t rows_swept_any(const NodeBlock<Real>& block,
-                                                           const BlockWay<Real>& way, const Triple& move,
+                                                           const BlockWay<Real>& way, const Vector& move,
                                                            const Sphere& ball) {
   const Real *x = block.position.x, *y = block.position.y, *z = block.position.z;
   const Real *ox = way.other.x, *oy = way.other.y, *oz = way.other.z;
@@ -179,11 +179,11 @@ WEFT_MULTIVERSION std::uint32_t rows_wider(const NodeBlock<double>& block, doubl
   return rows_wider_any(block, square);
 }
 WEFT_MULTIVERSION std::uint32_t rows_swept(const NodeBlock<float>& block, const BlockWay<float>& way,
-                                           const Triple& move, const Sphere& ball) {
+                                           const Vector& move, const Sphere& ball) {
   return rows_swept_any(block, way, move, ball);
 }
 WEFT_MULTIVERSION std::uint32_t rows_swept(const NodeBlock<double>& block, const BlockWay<double>& way,
-                                           const Triple& move, const Sphere& ball) {
+                                           const Vector& move, const Sphere& ball) {
   return rows_swept_any(block, way, move, ball);
 }
 

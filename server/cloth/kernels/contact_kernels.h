@@ -20,7 +20,7 @@ struct NodeBlock {
 
 // Solids are in double whatever the nodes' precision.
 
-struct Triple {
+struct Vector {
   double x, y, z;
 };
 /// A ball.
@@ -41,7 +41,7 @@ struct OrientedBox {
 
 /// The points near the stretch from `start` along the unit vector `axis`.
 struct Stretch {
-  Triple start, axis;
+  Vector start, axis;
   double length;
   double squared_radius;
 };
@@ -69,9 +69,9 @@ struct BlockWay {
 };
 /// Which of a block's rows have a node whose way, as seen from the ball, which makes a `move` of its own,
 /// leads through it.
-std::uint32_t rows_swept(const NodeBlock<float>& block, const BlockWay<float>& way, const Triple& move,
+std::uint32_t rows_swept(const NodeBlock<float>& block, const BlockWay<float>& way, const Vector& move,
                          const Sphere& ball);
-std::uint32_t rows_swept(const NodeBlock<double>& block, const BlockWay<double>& way, const Triple& move,
+std::uint32_t rows_swept(const NodeBlock<double>& block, const BlockWay<double>& way, const Vector& move,
                          const Sphere& ball);
 
 }  // namespace weft::kernels

@@ -49,7 +49,7 @@ std::vector<Vec3> untangling_moves(const std::vector<Crossing>& crossings, const
     const double below = normal.dot(x[a] - x[p]), whole = normal.dot(x[q] - x[p]);
     const double s = whole != 0 ? below / whole : 0.5;
     const Vec3 place = x[p] + s * (x[q] - x[p]);
-    const double wb = (place - x[a]).cross(x[c] - x[a]).dot(normal) / -area,
+    const double wb = (place - x[a]).cross(x[c] - x[a]).dot(normal) / area,
                  wc = (x[b] - x[a]).cross(place - x[a]).dot(normal) / area;
     const std::array<std::uint32_t, 5> node{p, q, a, b, c};
     const std::array<double, 5> weight{1 - s, s, wb + wc - 1, -wb, -wc};

@@ -1,0 +1,203 @@
+#include "cloth/integrators/momentum_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include "cloth/sheet/diagnostics.h"
+#include "rig.h"
+
+namespace weft {
+namespace {
+
+using test::each_node;
+using test::get;
+using test::Rig;
+using test::same_bits;
+using test::set;
+
+constexpr double kKeptStep = 1.0 / 60;
+
+/// A sheet in free motion; a substep of it that errs. Without springs, so that what it has to turn by is the
+/// energy that the errors took.
+struct Kept {
+  explicit Kept(const std::vector<EffectDescription>& effects = {}, bool hung = false)
+      : rig((hung ? test::hung_rig<double> : test::sheet_rig<double>)(6, 8, BackwardEulerDescription{},
+                                                                      effects, test::without_springs())) {
+    test::randomise(rig.particles.velocity, -2, 3, 2);
+    rig.particles.place = {100, -20, 5};
+  }
+  void begin() { keeper.begin_substep(rig.particles, rig.forces(0), rig.solids); }
+  /// Nodes go on by h v, and a tenth of what they do is lost, some more of it at random.
+  void err(std::uint64_t seed) {
+    start = rig.particles.position;
+    VectorField<double> off(start.grid());
+    test::randomise(off, -0.02, 0.03, seed);
+    each_node(start.grid(), [&](int r, int c) {
+      set(rig.particles.position, r, c, get(start, r, c) + kKeptStep * rig.particles.velocity_at(r, c));
+      set(rig.particles.velocity, r, c, 0.9 * rig.particles.velocity_at(r, c) + get(off, r, c));
+    });
+  }
+  double end(bool pushed = false, const Field<double>* second_order = nullptr) {
+    return keeper.end_substep(rig.particles, rig.forces(0), rig.solids, start, nullptr, pushed, second_order,
+                              kKeptStep);
+  }
+  Vec3 momentum() const { return linear_momentum(rig.particles); }
+  /// About the world's origin.
+  Vec3 spin() const { return angular_momentum(rig.particles); }
+
+  Rig<double> rig;
+  MomentumKeeper<double> keeper;
+  VectorField<double> start;
+};
+
+void expect_near(const Vec3& found, const Vec3& expected) {
+  EXPECT_LT((found - expected).norm(), 1e-12 * (1 + expected.norm()))
+      << found.transpose() << " instead of " << expected.transpose();
+}
+
+TEST(MomentumKeeper, WithoutForcesMomentaStay) {
+  Kept cloth;
+  const Vec3 momentum = cloth.momentum(), spin = cloth.spin();
+  cloth.begin();
+  cloth.err(5);
+  ASSERT_GT((cloth.momentum() - momentum).norm(), 0.01);
+  ASSERT_GT((cloth.spin() - spin).norm(), 0.01);
+  EXPECT_EQ(cloth.end(), 1);
+  expect_near(cloth.momentum(), momentum);
+  expect_near(cloth.spin(), spin);
+}
+
+// What it adds strains nothing: it changes no distance.
+TEST(MomentumKeeper, AddsARigidMotion) {
+  Kept cloth;
+  cloth.begin();
+  cloth.err(5);
+  const Particles<double> before = cloth.rig.particles;
+  cloth.end();
+  const Particles<double>& after = cloth.rig.particles;
+  EXPECT_TRUE(same_bits(after.position, before.position));
+  each_node(after.grid(), [&](int r, int c) {
+    for (const auto& other : {std::pair{0, 0}, {5, 7}, {2, 3}}) {
+      const Vec3 d = after.position_at(r, c) - after.position_at(other.first, other.second);
+      const Vec3 added = after.velocity_at(r, c) - before.velocity_at(r, c) -
+                         after.velocity_at(other.first, other.second) +
+                         before.velocity_at(other.first, other.second);
+      EXPECT_NEAR(d.dot(added), 0, 1e-13);
+    }
+  });
+}
+
+// Backward Euler's formula: h times the effects' forces where the substep ends, and their torque about the
+// place where the centre of mass began.
+TEST(MomentumKeeper, EffectsChangeMomentaByBackwardEulersFormula) {
+  Kept cloth({GravityEffect{}});
+  const Vec3 centre = centre_of_mass(cloth.rig.particles), momentum = cloth.momentum(), spin = cloth.spin();
+  cloth.begin();
+  cloth.err(6);
+  const Vec3 weight = total_mass(cloth.rig.particles) * standard_gravity();
+  const Vec3 torque = (centre_of_mass(cloth.rig.particles) - centre).cross(weight);
+  cloth.end();
+  expect_near(cloth.momentum(), momentum + kKeptStep * weight);
+  const auto about = [&](const Vec3& sum, const Vec3& of) { return Vec3(sum - centre.cross(of)); };
+  expect_near(about(cloth.spin(), cloth.momentum()), about(spin, momentum) + kKeptStep * torque);
+}
+
+// BDF2: p2 = (4 p1 - p0 + 2 h F) / 3, where all nodes are stepped by that.
+TEST(MomentumKeeper, BDF2sFormulaIsKeptWhereAllNodesAreSteppedByIt) {
+  for (const bool all : {true, false}) {
+    Kept cloth({GravityEffect{}});
+    const Vec3 first = cloth.momentum();
+    cloth.begin();
+    cloth.err(6);
+    // Between substeps it may have got something that no force explains.
+    const Vec3 second = cloth.momentum();
+    Field<double> second_order(cloth.rig.particles.grid());
+    second_order.fill(1);
+    if (!all) second_order.at(2, 2) = 0;
+    cloth.begin();
+    cloth.err(7);
+    cloth.end(false, &second_order);
+    const Vec3 gained = kKeptStep * total_mass(cloth.rig.particles) * standard_gravity();
+    expect_near(cloth.momentum(), all ? Vec3((4 * second - first + 2 * gained) / 3) : Vec3(second + gained));
+  }
+}
+
+// Of a substep that says nothing about the next one there is no second order.
+TEST(MomentumKeeper, ARestartForgetsTheSubstepBefore) {
+  Kept cloth({GravityEffect{}});
+  cloth.begin();
+  cloth.err(6);
+  cloth.keeper.restart();
+  const Vec3 momentum = cloth.momentum();
+  Field<double> second_order(cloth.rig.particles.grid());
+  second_order.fill(1);
+  cloth.begin();
+  cloth.err(7);
+  cloth.end(false, &second_order);
+  expect_near(cloth.momentum(), momentum + kKeptStep * total_mass(cloth.rig.particles) * standard_gravity());
+}
+
+// Cloth and body together keep what they had: the body was given something in the substep.
+TEST(MomentumKeeper, WhatABodyGainsTheClothHasLost) {
+  Kept cloth;
+  Solid body;
+  body.id = 1;
+  body.shape = Sphere{0.2};
+  body.start = body.position = {99, -20.5, 5.25};
+  body.position -= cloth.rig.particles.place;  // solids are seen from the cloth's place
+  body.start = body.position;
+  body.inverse_mass = 0.5;
+  body.inverse_inertia = 30 * Eigen::Matrix3d::Identity();
+  body.velocity = {1, 0, -1};
+  body.spin = {0, 3, 0};
+  cloth.rig.solids = {body};
+  const Vec3 place = cloth.rig.particles.place + body.position;
+  const Vec3 momentum = cloth.momentum(), spin = cloth.spin();
+  cloth.begin();
+  cloth.err(5);
+  const Vec3 gain(0.05, -0.02, 0.01), turned(0.1, 0.2, -0.05);
+  cloth.rig.solids[0].velocity += gain;
+  cloth.rig.solids[0].spin += turned;
+  cloth.end();
+  expect_near(cloth.momentum() + gain / 0.5, momentum);
+  expect_near(cloth.spin() + place.cross(gain / 0.5) + turned / 30, spin);
+}
+
+// Held cloth, cloth that something firm has pushed, and cloth that is torn is left as it is, to the bit.
+TEST(MomentumKeeper, LeavesAloneWhatIsNotFree) {
+  const auto expect_left_alone = [](Kept& cloth, bool pushed) {
+    cloth.begin();
+    cloth.err(5);
+    const VectorField<double> velocity = cloth.rig.particles.velocity;
+    EXPECT_EQ(cloth.end(pushed), 1);
+    EXPECT_TRUE(same_bits(cloth.rig.particles.velocity, velocity));
+  };
+  Kept hung({}, true), pushed, torn;
+  expect_left_alone(hung, false);
+  expect_left_alone(pushed, true);
+  const auto links = std::make_shared<TornLinks>(torn.rig.particles.grid());
+  links->cut({2, 2, true});
+  torn.rig.sheet = Sheet<double>(torn.rig.cloth, SheetEffects(std::vector<EffectDescription>{}),
+                                 torn.rig.particles.inverse_mass, links);
+  expect_left_alone(torn, false);
+}
+
+// Drawn together without the energy to turn faster by, it turns as fast as that which it had allows.
+TEST(MomentumKeeper, TurningHasNoMoreEnergyThanThereIs) {
+  Kept cloth;
+  Particles<double>& particles = cloth.rig.particles;
+  each_node(particles.grid(), [&](int r, int c) {
+    set(particles.velocity, r, c, Vec3(0, 0, 2).cross(particles.local_position_at(r, c)));
+  });
+  const double before = kinetic_energy(particles);
+  cloth.begin();
+  cloth.start = particles.position;
+  each_node(particles.grid(), [&](int r, int c) {
+    set(particles.position, r, c, 0.9 * particles.local_position_at(r, c));
+    set(particles.velocity, r, c, 0.9 * particles.velocity_at(r, c));
+  });
+  cloth.end();
+  EXPECT_NEAR(kinetic_energy(particles), before, 1e-12 * before);
+}
+
+}  // namespace
+}  // namespace weft
