@@ -17,9 +17,9 @@ constexpr double kMeetingPart = 0.4;
 /// gap at once: separated that far they would push each other to and fro.
 constexpr double kWellApart = 0.5;
 
-double led(double distance, double gap, bool near_rest) {
+double led(double distance, double gap, bool near_rest, double part) {
   const double lack = (near_rest ? kWellApart : 1) * gap - distance;
-  return lack > 0 ? distance + kLayersLedApart * lack : std::min(distance, gap);
+  return lack > 0 ? distance + part * lack : std::min(distance, gap);
 }
 
 PairKey key_of(const LayerPair& pair) {
@@ -106,7 +106,7 @@ LayerConstraint<Real> LayerContacts<Real>::constraint(const LayerPair& pair) con
   c.closing = c.normal.dot(slip);
   c.gap = pair.gap;
   const bool stands_still = others && others_share == 0;
-  c.wanted = led(c.distance, pair.gap, near_rest_ && !stands_still);
+  c.wanted = led(c.distance, pair.gap, near_rest_ && !stands_still, layers_led_apart(substep_));
   c.spare = c.distance + others_way - c.wanted;
   c.inertia = others_share > 0 ? 1 / (h * h * others_share) : std::numeric_limits<double>::infinity();
   c.slid = across(c.slid, c.normal);

@@ -34,7 +34,7 @@ void LayerImpulses<Real>::resolve(Particles<Real>& particles, const Substep& sub
     inverse_mass_.assign(values.begin(), values.end());
   }
   move_others(substep);
-  const Shares shares{1 - std::pow(1 - kLayersLedApart, substep.to - substep.from),
+  const Shares shares{layers_led_apart(substep),
                       1 - std::exp(-standard_gravity().norm() / kSlowlyApart * substep.seconds)};
   for (const LayerPair& pair : pairs) {
     const Ends ends = ends_of(pair, particles);

@@ -1,10 +1,17 @@
 #pragma once
+#include <cmath>
+
 #include "cloth/contact/search/features.h"
+#include "cloth/core/substep.h"
 
 namespace weft {
 
 /// Part of what layers lack of their gap that they are led apart in a step.
 inline constexpr double kLayersLedApart = 0.1;
+/// In a substep: in all of a step's it comes to as much, however many there are.
+inline double layers_led_apart(const Substep& substep) {
+  return 1 - std::pow(1 - kLayersLedApart, substep.to - substep.from);
+}
 
 /// Two features of cloth that lie on each other or will in the step.
 struct LayerPair {
