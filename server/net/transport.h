@@ -39,11 +39,9 @@ class AnyHandler {
 
   /// handler(error_code, std::size_t) or handler(error_code); may be movable only.
   template <class Handler>
-  requires(!std::is_same_v<std::decay_t<Handler>, AnyHandler>)
-      // NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload): given as a
-      // handler
-      AnyHandler(Handler&& handler)
-      : handler_(std::make_unique<Of<std::decay_t<Handler>>>(std::forward<Handler>(handler))) {}
+  requires(!std::is_same_v<Handler, AnyHandler>)
+      AnyHandler(Handler handler)  // NOLINT(google-explicit-constructor): given as a handler
+      : handler_(std::make_unique<Of<Handler>>(std::move(handler))) {}
 
   void operator()(error_code error, std::size_t count = 0) { Base::call(std::move(handler_), error, count); }
 
@@ -58,8 +56,7 @@ class AnyHandler {
   };
   template <class Handler>
   struct Of final : Base {
-    explicit Of(Handler&& given) : handler(std::move(given)) {}
-    explicit Of(const Handler& given) : handler(given) {}
+    explicit Of(Handler given) : handler(std::move(given)) {}
     /// What the handler begins finds the memory of this one free.
     void call_and_free(std::unique_ptr<Base> self, error_code error, std::size_t count) override {
       Handler mine(std::move(handler));

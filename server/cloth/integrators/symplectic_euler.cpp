@@ -124,11 +124,11 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   report.substeps = plan.substeps;
   report.sound = plan.stable;
   if (!plan.stable) return report;  // not even by the most substeps
-  bound_.begin_step(particles, forces);
   const double h = dt / plan.substeps;
   const int together = plan.together;
   forces.context.damping_limit = plan.damping_limit;
   forces.context.time = time;
+  bound_.begin_step(particles, forces, h);
   int blow_begin = 0, blow_end = 0;
   if (together > 1) {
     find_slow(particles, forces, together * h);
@@ -160,7 +160,8 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
     forces.join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
-  bound_.end_step(particles, forces, dt);
+  forces.context.time = time + dt;
+  bound_.end_step(particles, forces, h, dt);
   return report;
 }
 
