@@ -3,11 +3,9 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/basic_waitable_timer.hpp>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
@@ -16,7 +14,8 @@
 #include <boost/beast/core/error.hpp>
 #include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/container/static_vector.hpp>
+
+#include "net/erased_operation.h"
 
 namespace weft::net {
 
@@ -29,65 +28,6 @@ using TcpStream =
 using SteadyTimer =
     boost::asio::basic_waitable_timer<std::chrono::steady_clock,
                                       boost::asio::wait_traits<std::chrono::steady_clock>, Executor>;
-
-/// What is called once when an operation has ended, whatever its type. The operations of a Transport take it
-/// and a BufferList, so that they are compiled once: of handlers and buffers of their own types the layers
-/// above have hundreds. Runs on the operation's executor, as all of a connection does.
-class AnyHandler {
- public:
-  using error_code = boost::beast::error_code;
-
-  /// handler(error_code, std::size_t) or handler(error_code); may be movable only.
-  template <class Handler>
-  requires(!std::is_same_v<Handler, AnyHandler>)
-      AnyHandler(Handler handler)  // NOLINT(google-explicit-constructor): given as a handler
-      : handler_(std::make_unique<Of<Handler>>(std::move(handler))) {}
-
-  void operator()(error_code error, std::size_t count = 0) { Base::call(std::move(handler_), error, count); }
-
- private:
-  struct Base {
-    virtual ~Base() = default;
-    virtual void call_and_free(std::unique_ptr<Base> self, error_code error, std::size_t count) = 0;
-    static void call(std::unique_ptr<Base> base, error_code error, std::size_t count) {
-      Base& called = *base;
-      called.call_and_free(std::move(base), error, count);
-    }
-  };
-  template <class Handler>
-  struct Of final : Base {
-    explicit Of(Handler given) : handler(std::move(given)) {}
-    /// What the handler begins finds the memory of this one free.
-    void call_and_free(std::unique_ptr<Base> self, error_code error, std::size_t count) override {
-      Handler mine(std::move(handler));
-      self.reset();
-      if constexpr (std::is_invocable_v<Handler, error_code, std::size_t>)
-        mine(error, count);
-      else
-        mine(error);
-    }
-    Handler handler;
-  };
-
-  std::unique_ptr<Base> handler_;
-};
-
-/// The first buffers of a sequence that are not empty, as many as one call to the system takes well.
-template <class Buffer>
-class BufferList : public boost::container::static_vector<Buffer, 16> {
- public:
-  template <class Buffers>
-  static BufferList of(const Buffers& buffers) {
-    BufferList list;
-    const auto end = boost::asio::buffer_sequence_end(buffers);
-    for (auto it = boost::asio::buffer_sequence_begin(buffers); it != end && list.size() < list.capacity();
-         ++it) {
-      const Buffer buffer(*it);
-      if (buffer.size() > 0) list.push_back(buffer);
-    }
-    return list;
-  }
-};
 
 class Transport {
  public:
