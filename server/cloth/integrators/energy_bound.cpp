@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "cloth/kernels/node_kernels.h"
-#include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
 
@@ -14,12 +12,6 @@ namespace {
 /// Below the bound by this share of the largest kinetic energy, the energy is seen at intervals of so many
 /// seconds.
 constexpr double kFar = 0.1, kInterval = 0.1;
-
-template <class Real>
-void push(Particles<Real>& particles, const VectorField<Real>& force, double seconds) {
-  kernels::add_weighted(kernels::components(particles.velocity), kernels::components(force),
-                        particles.inverse_mass.row(0), static_cast<Real>(seconds), particles.grid().size());
-}
 
 }  // namespace
 
@@ -46,7 +38,7 @@ double EnergyBound<Real>::end_step(Particles<Real>& particles, const Forces<Real
   wait_ = -gain > kFar * moving_ ? kInterval : 0;
   const double left = take_from_motion(particles, gain);
   if (left < 1) {
-    push(particles, force_, -h / 2);
+    accelerate(particles, force_, -h / 2);
   } else {
     std::swap(particles.velocity, velocity_);  // to the bit as it was
   }
@@ -58,7 +50,7 @@ void EnergyBound<Real>::bring_forward(Particles<Real>& particles, const Forces<R
   if (force_.grid() != particles.grid()) force_ = VectorField<Real>(particles.grid());
   velocity_ = particles.velocity;
   forces.sum(particles, force_);
-  push(particles, force_, h / 2);
+  accelerate(particles, force_, h / 2);
 }
 
 template class EnergyBound<float>;

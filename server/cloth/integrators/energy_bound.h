@@ -10,11 +10,11 @@ namespace weft {
 /// leave undone, and rounding, do work of either sign. What is beyond the bound is taken from the motion
 /// (take_from_motion), so that momenta stay where nothing is held.
 ///
-/// It is the integrator's that moves nodes by velocities of half a substep before (symplectic Euler as a
-/// leapfrog: Hairer, Lubich, Wanner, Geometric Numerical Integration, I.1.4). Energy is seen, and motion
-/// taken, at the velocity when the nodes are where they are: half a substep's force later. From the one
-/// before a mode of more than sqrt(2) radians a substep gains by what is taken, since of its velocity the
-/// part along its displacement lowers the energy that leapfrog keeps.
+/// For symplectic Euler, which is leapfrog with velocities half a substep older than the positions (Hairer,
+/// Lubich, Wanner, Geometric Numerical Integration, I.1.4): they are brought forward by half a substep's
+/// force before the energy is seen or taken, and back afterwards. To take from the older ones would drive
+/// stiff modes: of a mode of w rad/s leapfrog keeps (v^2 + w^2 x^2 - h w^2 x v) / 2, and where h w > sqrt(2)
+/// that grows, in the mean, when v becomes 0.
 ///
 /// To see the energy takes a pass over all springs. It is seen after every step while it is near the bound,
 /// and ten times a second where it is far below.

@@ -8,6 +8,7 @@
 #include "cloth/core/interrupt.h"
 #include "cloth/kernels/node_kernels.h"
 #include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/motion.h"
 
 namespace weft {
 namespace {
@@ -187,19 +188,15 @@ template <class Real>
 void SymplecticEuler<Real>::blow(Particles<Real>& particles, const Forces<Real>& forces, double h,
                                  int together) {
   const std::size_t count = particles.grid().size();
-  const auto push = [&](const VectorField<Real>& force, double seconds) {
-    kernels::add_weighted(kernels::components(particles.velocity), kernels::components(force),
-                          particles.inverse_mass.row(0), static_cast<Real>(seconds), count);
-  };
   // At the velocity when the nodes are where they are, half a substep after the one they came with: so a blow
   // of drag takes energy from every mode.
   velocity_ = particles.velocity;
-  push(force_, h / 2);
+  accelerate(particles, force_, h / 2);
   find_slow(particles, forces, together * h);
   std::swap(particles.velocity, velocity_);
   kernels::add_scaled(kernels::components(slow_), kernels::components(std::as_const(lasting_)), Real(-1),
                       count);
-  push(slow_, together * h);
+  accelerate(particles, slow_, together * h);
   kernels::add_scaled(kernels::components(lasting_), kernels::components(std::as_const(slow_)), Real(kLasts),
                       count);
 }

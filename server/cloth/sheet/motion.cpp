@@ -6,6 +6,7 @@
 
 #include "cloth/kernels/components.h"
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/kernels/node_kernels.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
 
@@ -140,6 +141,12 @@ double work_beside_centre(const Particles<Real>& particles, const VectorField<Re
 }
 
 template <class Real>
+void accelerate(Particles<Real>& particles, const VectorField<Real>& force, double seconds) {
+  kernels::add_weighted(kernels::components(particles.velocity), kernels::components(force),
+                        particles.inverse_mass.row(0), static_cast<Real>(seconds), particles.grid().size());
+}
+
+template <class Real>
 double add_to_motion(Particles<Real>& particles, double energy, bool held) {
   if (!(std::abs(energy) > 0)) return 1;
   const RigidMotion rigid =
@@ -170,6 +177,8 @@ template double work_beside_centre(const Particles<float>&, const VectorField<fl
                                    const VectorField<float>&, bool);
 template double work_beside_centre(const Particles<double>&, const VectorField<double>&,
                                    const VectorField<double>&, bool);
+template void accelerate(Particles<float>&, const VectorField<float>&, double);
+template void accelerate(Particles<double>&, const VectorField<double>&, double);
 template double add_to_motion(Particles<float>&, double, bool);
 template double add_to_motion(Particles<double>&, double, bool);
 template double take_from_motion(Particles<float>&, double, bool);

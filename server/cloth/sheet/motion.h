@@ -22,6 +22,10 @@ template <class Real>
 double work_beside_centre(const Particles<Real>& particles, const VectorField<Real>& force,
                           const VectorField<Real>& way, bool held);
 
+/// Adds to the velocities of the free nodes what `force`, N, does to them in so many seconds.
+template <class Real>
+void accelerate(Particles<Real>& particles, const VectorField<Real>& force, double seconds);
+
 /// Gives the motion of the free nodes so much energy, J, or takes it where that is below 0, as far as there
 /// is any: all velocities are scaled alike. Where no node is held it is their inner motion, so that momentum
 /// and angular momentum stay. Returns the scale, from 0; 1 where nothing moves so.
