@@ -6,11 +6,12 @@ namespace weft::host {
 
 void LinkKeeper::passed(const Viewer::Flow& flow, int most) {
   coarser_ = std::min(coarser_, most);
-  if (flow.published < kLeastFrames) {
+  const bool few = flow.published < kLeastFrames;
+  if (few && flow.dropped > 0) {
     limit_ = Limit::nothing;
     return;
   }
-  const double left_out = double(flow.dropped) / flow.published;
+  const double left_out = few ? 0 : double(flow.dropped) / flow.published;
   limit_ = left_out <= kFewLeftOut ? Limit::nothing : flow.at_client ? Limit::client : Limit::link;
   ++since_;
   good_ = limit_ == Limit::link ? 0 : good_ + 1;

@@ -10,7 +10,8 @@ class LinkKeeper {
  public:
   /// What keeps frames from the viewer.
   enum class Limit { nothing, link, client };
-  /// Stretches with fewer frames than these say nothing.
+  /// Stretches with fewer frames than these, of which some were left out, say nothing. While a scene sleeps
+  /// hardly any are made, and all of them arrive: then the link has room.
   static constexpr int kLeastFrames = 8;
   /// Of the frames made, left out without that being a limit: a few are when a garbage collector runs.
   static constexpr double kFewLeftOut = 0.1;

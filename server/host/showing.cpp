@@ -67,7 +67,9 @@ void LiveScene::send_stats(double rate) {
     int most = 0;  // levels that it may lose
     for (std::size_t i = 0; i < seat.levels.size() && seat.viewer->takes_coarser(); ++i)
       most = std::max(most, seat.levels[i] - scene_.simulation.cloths[i].min_level);
+    const int coarser = seat.link.coarser();
     seat.link.passed(seat.viewer->flow(), most);
+    if (seat.link.coarser() != coarser) seat.wants_frame = true;  // no other may come soon
     seat.viewer->send(seat.visit, make_text(stats_text(simulation_, state, seat, sent_levels(seat))),
                       "stats");
   }

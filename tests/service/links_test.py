@@ -173,6 +173,16 @@ class Links(unittest.IsolatedAsyncioTestCase):
             self.assertNotEqual(stats.get("limit"), "link")  # a busy machine may limit it
             await client.next_frame(lambda frame: frame.cloths[0].level == 6)
 
+    async def test_of_what_stands_still_the_finer_level_comes_too(self):
+        async with NarrowWay(self.server.port) as way:
+            client = await self.narrow(way, coarser=True)
+            way.rate = 50_000
+            await self.until_stats(client, lambda stats: stats.get("coarser") == 2)
+            await client.pause()
+            way.rate = None
+            frame = await client.next_frame(lambda frame: frame.cloths[0].level == 6)
+            self.assertTrue(frame.stamp.paused)
+
     async def test_a_lossy_link_gets_a_coarser_level_and_keeps_its_viewer(self):
         async with LossyWay(self.server.port, random.Random(1)) as way:
             client = await weft.connect(way.url, timeout=GENEROUS, coarser=True)

@@ -44,6 +44,7 @@ template <class Real>
 void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forces<Real>& forces,
                                     double lead) {
   lead_ = lead;
+  books_ = forces.sheet->torn() == nullptr && forces.layers == nullptr;
   work_ = work_whole_ = taken_ = led_out_ = 0;
   if (forces.disturbed || (account_ && account_->drive != forces.drive)) account_.reset();
   if (forces.drive == Drive::other || account_) return;
@@ -61,7 +62,7 @@ void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forc
 template <class Real>
 void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forces<Real>& forces,
                                     const Ways& ways) {
-  if (!account_) return;
+  if (!counts()) return;
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) force_ = way_ = VectorField<Real>(grid);
   forces.sum_effects(particles, force_);
@@ -89,14 +90,13 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                     bool touched, AdvanceReport& report) {
   if (!account_) return 1;
   Account& account = *account_;
-  const bool torn = forces.sheet->torn() != nullptr;
   const bool pinned = is_held(particles), leans = touched && !pinned, firm = touched || pinned;
   const MotionEnergy motion = motion_energy(particles, firm);
   const double springs = forces.sheet->energy(particles.position), now = motion.beside_centre + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
   const double work = firm ? work_whole_ : work_;
   double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;
-  if (torn) lost = account.owed = 0;
+  if (!books_) lost = account.owed = 0;
   account.owed += lost - std::clamp(lost, -led_out_, led_out_);
   const bool wind = account.drive == Drive::wind;
   const double kept =

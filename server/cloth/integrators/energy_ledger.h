@@ -16,9 +16,10 @@ namespace weft {
 /// be given then is owed.
 ///
 /// A motion as slow as what a solve leaves undone in a step gets nothing back, or errors alone would keep it
-/// going. Nor does a torn cloth, whose pieces do not move as one. Where not even wind drives it, it never has
-/// more than it had when it was last driven. In wind half of what it loses is given back: folds lose most of
-/// it, and what they lose in earnest the drag takes, so that all of it would overdrive the flapping.
+/// going. Nor does a torn cloth, whose pieces do not move as one, nor one whose layers touch, as nobody
+/// counts what they take by meeting and rubbing. Where not even wind drives it, it never has more than it had
+/// when it was last driven. In wind half of what it loses is given back: folds lose most of it, and what they
+/// lose in earnest the drag takes, so that all of it would overdrive the flapping.
 ///
 /// Backward Euler's nodes run ahead of their speeds: under a steady force a node that began at rest is, after
 /// n substeps, where it should be half a substep later. That is no loss: of a cloth that nothing holds height
@@ -49,8 +50,8 @@ class EnergyLedger {
   };
   /// After a substep.
   void count_work(const Particles<Real>& particles, const Forces<Real>& forces, const Ways& ways);
-  /// Whether it keeps any books in this step.
-  bool counts() const { return account_.has_value(); }
+  /// Whether it keeps books of this step, not only the bound.
+  bool counts() const { return account_ && books_; }
   /// What contact did to the cloth in a substep.
   void count_contact(const typename ContactConstraints<Real>::Work& work) {
     taken_ += work.taken;
@@ -91,6 +92,7 @@ class EnergyLedger {
 
   double liveliness_;
   std::optional<Account> account_;  ///< nothing while something else drives the cloth
+  bool books_ = true;               ///< in this step it can tell what was lost
   double lead_ = 0;                 ///< s, in this step
   double work_ = 0;                 ///< of the effects in this step, J
   double work_whole_ = 0;           ///< the same with that on the centre of mass

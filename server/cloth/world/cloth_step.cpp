@@ -133,7 +133,7 @@ Drive Cloth<Real>::drive(const Forces<Real>& forces, double dt) const {
       return effect->feels_wind() == in_wind && effect->drives(forces.context);
     });
   };
-  if (forces.holds_gas() || forces.layers != nullptr ||
+  if (forces.holds_gas() || (forces.layers != nullptr && forces.layers->meets_others()) ||
       (forces.pins != nullptr && way_of_pins(time, time + dt) > 0) || any_effect(false) ||
       std::any_of(solids_.begin(), solids_.end(), [](const Solid& solid) {
         return solid.yields() || !solid.velocity.isZero(0) || !solid.turn.isZero(0);

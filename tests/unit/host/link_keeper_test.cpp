@@ -97,4 +97,16 @@ TEST_F(Link, AFewFramesSayNothing) {
   EXPECT_EQ(keeper.coarser(), 0);
 }
 
+// No frame or a few, and all of them arrive: of what rests the viewer gets the finer levels back.
+TEST_F(Link, WhileHardlyAnyFramesAreMadeItHasRoom) {
+  for (const int made : {0, 1, LinkKeeper::kLeastFrames - 1}) {
+    keeper = {};
+    run(1, 10);
+    ASSERT_EQ(keeper.coarser(), 2);
+    for (int i = 0; i < 2 * LinkKeeper::kPatience; ++i) keeper.passed({made, 0, false}, 2);
+    EXPECT_EQ(keeper.coarser(), 0) << made;
+    EXPECT_EQ(keeper.limit(), Limit::nothing);
+  }
+}
+
 }  // namespace weft::host

@@ -44,6 +44,14 @@ LayerContacts<Real>::LayerContacts(const LayerNodes& nodes, const FeatureSearch&
       impulses_(nodes, found, grid, cloth, parameters) {}
 
 template <class Real>
+bool LayerContacts<Real>::meets_others() const {
+  const bool alone = nodes_->first.size() == 2;
+  return !alone && (!struck_.empty() || std::any_of(pairs_.begin(), pairs_.end(), [&](const LayerPair& pair) {
+    return !own(pair.features.node[0]) || !own(pair.features.node[2]);
+  }));
+}
+
+template <class Real>
 PairForce LayerContacts<Real>::remembered(const PairKey& key) const {
   const auto found = std::lower_bound(forces_.begin(), forces_.end(), key,
                                       [](const PairForce& f, const PairKey& k) { return f.pair < k; });

@@ -56,6 +56,8 @@ class LayerContacts {
   }
   /// Nothing for a step to do.
   bool empty() const { return pairs_.empty() && struck_.empty() && held_.empty(); }
+  /// Other cloth may do work on this one in the step. Its own layers only take energy.
+  bool meets_others() const;
 
   // An implicit substep.
 
