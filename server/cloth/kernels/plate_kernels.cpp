@@ -16,10 +16,8 @@ class PlateRows {
 
   [[gnu::always_inline]] PlateRows(const Grid& grid, Real* work)
       : size_(WorkRows<Real>::row_size(grid)), work_(work) {
-    for (std::size_t row = 0; row < kRows; ++row) {
-      // Beside the columns there are no differences, and behind the last one nothing is written.
-      std::fill_n(work_ + row * size_, size_, Real(0));
-    }
+    // Beside the columns there are no moments.
+    std::fill_n(work_, kRows * size_, Real(0));
   }
   [[gnu::always_inline]] Real* row(std::size_t i) const { return work_ + i * size_ + kRowAlign; }
 
@@ -28,8 +26,8 @@ class PlateRows {
   Real* work_;
 };
 
-/// K x of one component, row by row: x's differences along u at this row and the next, curvature moments
-/// along v at the row before, this and the next, twisting moments at the row before and this.
+/// K x of one component, row by row: moments along u at this row, along v at the row before, this and the
+/// next, twisting moments at the row before and this.
 template <class Real>
 class PlateComponent {
  public:
@@ -37,39 +35,33 @@ class PlateComponent {
                                         int begin, Real* work)
       : plate_(plate), grid_(grid), x_(x) {
     const PlateRows<Real> rows(grid, work);
-    along_ = rows.row(0);
-    next_along_ = rows.row(1);
-    above_ = rows.row(2);
-    here_ = rows.row(3);
-    below_ = rows.row(4);
-    twist_above_ = rows.row(5);
-    twist_ = rows.row(6);
-    bend_ = rows.row(7);
+    above_ = rows.row(0);
+    here_ = rows.row(1);
+    below_ = rows.row(2);
+    twist_above_ = rows.row(3);
+    twist_ = rows.row(4);
+    along_ = rows.row(5);
+    first_ = rows.row(6);
+    last_ = rows.row(7);
+    std::copy_n(x, grid.stride, first_);
+    std::copy_n(x + grid.index(grid.rows - 1, 0), grid.stride, last_);
+    // All that a row needs of those before it.
     if (begin > 0) {
-      difference(begin - 1, along_);
-      difference(begin, next_along_);
-      twist(begin - 1);
-      std::swap(twist_above_, twist_);
-      std::swap(along_, next_along_);
-      bend_down(begin - 1, above_);
+      find_moments(begin - 2);
+      next_row();
+      find_moments(begin - 1);
+      next_row();
     } else {
-      difference(0, along_);
+      find_moments(-1);
+      next_row();
     }
-    bend_down(begin, here_);
   }
 
   /// (K x) at row r, for grouped(cols) columns; rows are asked for one after the other.
   [[gnu::always_inline]] void product(int r, Real* __restrict out) {
+    find_moments(r);
     const int count = grouped(grid_.cols);
-    if (r + 1 < grid_.rows) difference(r + 1, next_along_);
-    bend_down(r + 1, below_);
-    twist(r);
-    const Real* __restrict stiffness = plate_.u + grid_.index(r, 0);
-    const Real* __restrict d = along_;
-    Real* __restrict bend = bend_;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = 0; c < count; ++c) bend[c] = stiffness[c] * (d[c] - d[c - 1]);
-    const Real* __restrict q = bend_;
+    const Real* __restrict q = along_;
     const Real* __restrict above = above_;
     const Real* __restrict here = here_;
     const Real* __restrict below = below_;
@@ -81,7 +73,48 @@ class PlateComponent {
       const Real down = (above[c] - here[c]) + (below[c] - here[c]);
       out[c] = (along + down) + ((t[c] - t_above[c]) - (t[c - 1] - t_above[c - 1]));
     }
-    std::swap(along_, next_along_);
+    next_row();
+  }
+
+ private:
+  /// Row r of x, of which a scalar before and one behind may be read, too.
+  [[gnu::always_inline]] const Real* row(int r) const {
+    return r == 0 ? first_ : r + 1 == grid_.rows ? last_ : x_ + grid_.index(r, 0);
+  }
+  /// Moments along u at row r, along v at the next, and twisting between both. Outside of the grid there are
+  /// none; behind the last column and beside the rim stiffnesses are zero.
+  [[gnu::always_inline]] void find_moments(int r) {
+    const int count = grouped(grid_.cols);
+    if (r < 0 || r + 2 >= grid_.rows) return find_at_rim(r);
+    const Real* __restrict u = plate_.u + grid_.index(r, 0);
+    const Real* __restrict v = plate_.v + grid_.index(r + 1, 0);
+    const Real* __restrict k = plate_.twist + grid_.index(r, 0);
+    const Real *x = row(r), *next = row(r + 1), *second = row(r + 2);
+    Real* __restrict along = along_, * __restrict below = below_, * __restrict twist = twist_;
+    WEFT_INDEPENDENT_ITERATIONS
+    for (int c = 0; c < count; ++c) {
+      const Real d = x[c + 1] - x[c];
+      along[c] = u[c] * (d - (x[c] - x[c - 1]));
+      below[c] = v[c] * ((x[c] - next[c]) + (second[c] - next[c]));
+      twist[c] = k[c] * ((next[c + 1] - next[c]) - d);
+    }
+  }
+  /// The same where the next row or the one behind it is outside, or this.
+  [[gnu::noinline]] void find_at_rim(int r) {
+    const int count = grouped(grid_.cols);
+    std::fill_n(below_, count, Real(0));
+    std::fill_n(twist_, count, Real(0));
+    std::fill_n(along_, count, Real(0));
+    if (r < 0) return;
+    const Real* __restrict u = plate_.u + grid_.index(r, 0);
+    const Real* x = row(r);
+    for (int c = 0; c < count; ++c) along_[c] = u[c] * ((x[c + 1] - x[c]) - (x[c] - x[c - 1]));
+    if (r + 1 == grid_.rows) return;
+    const Real* __restrict k = plate_.twist + grid_.index(r, 0);
+    const Real* next = row(r + 1);
+    for (int c = 0; c < count; ++c) twist_[c] = k[c] * ((next[c + 1] - next[c]) - (x[c + 1] - x[c]));
+  }
+  [[gnu::always_inline]] void next_row() {
     std::swap(twist_above_, twist_);
     Real* free_row = above_;
     above_ = here_;
@@ -89,44 +122,11 @@ class PlateComponent {
     below_ = free_row;
   }
 
- private:
-  /// To the next column, at row r. Behind the last column there is none, and its stiffness is zero.
-  [[gnu::always_inline]] void difference(int r, Real* __restrict d) const {
-    const Real* __restrict x = x_ + grid_.index(r, 0);
-    const int count = std::min(grouped(grid_.cols), grid_.stride - 1);
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = 0; c < count; ++c) d[c] = x[c + 1] - x[c];
-  }
-  /// Moments along v at row r.
-  [[gnu::always_inline]] void bend_down(int r, Real* __restrict moment) const {
-    const int count = grouped(grid_.cols);
-    if (r < 1 || r + 1 >= grid_.rows) {
-      std::fill_n(moment, count, Real(0));
-      return;
-    }
-    const Real* __restrict stiffness = plate_.v + grid_.index(r, 0);
-    const Real* __restrict x = x_ + grid_.index(r, 0);
-    const std::ptrdiff_t stride = grid_.stride;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = 0; c < count; ++c) {
-      moment[c] = stiffness[c] * ((x[c - stride] - x[c]) + (x[c + stride] - x[c]));
-    }
-  }
-  /// Twisting moments between row r and the next, from the differences along both.
-  [[gnu::always_inline]] void twist(int r) const {
-    const int count = grouped(grid_.cols);
-    const Real* __restrict stiffness = plate_.twist + grid_.index(r, 0);
-    const Real* __restrict d = along_;
-    const Real* __restrict next = next_along_;
-    Real* __restrict moment = twist_;
-    WEFT_INDEPENDENT_ITERATIONS
-    for (int c = 0; c < count; ++c) moment[c] = stiffness[c] * (next[c] - d[c]);
-  }
-
   PlateStencils<Real> plate_;
   Grid grid_;
   const Real* x_;
-  Real *along_, *next_along_, *above_, *here_, *below_, *twist_above_, *twist_, *bend_;
+  Real *above_, *here_, *below_, *twist_above_, *twist_, *along_;
+  Real *first_, *last_;  ///< copies of the first and the last row, with room
 };
 
 /// Calls finish(r, product) for every row r, product being its K x with columns that may be grouped.
