@@ -136,9 +136,10 @@ SimulationDescription scene_of(const UndampedRun& run) {
 namespace {
 
 /// The cloth's energy; half_substep: by how much the positions are later than the velocities, s.
-Energy energy_of(const Cloth<float>& cloth, const Vec3& gravity, double half_substep) {
+template <class Real>
+Energy energy_of(const Cloth<Real>& cloth, const Vec3& gravity, double half_substep) {
   Energy energy;
-  const Particles<float>& nodes = cloth.particles();
+  const Particles<Real>& nodes = cloth.particles();
   const Grid& grid = nodes.grid();
   std::vector<Vec3> forces(grid.size(), Vec3::Zero());
   const auto force = [&](int r, int c) -> Vec3& { return forces[grid.index(r, c)]; };
@@ -182,7 +183,8 @@ Energy energy_of(const Cloth<float>& cloth, const Vec3& gravity, double half_sub
 
 }  // namespace
 
-Energy state_energy(const Simulation<float>& simulation) {
+template <class Real>
+Energy state_energy(const Simulation<Real>& simulation) {
   Energy sum;
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
     const bool is_leapfrog =
@@ -195,5 +197,8 @@ Energy state_energy(const Simulation<float>& simulation) {
   }
   return sum;
 }
+
+template Energy state_energy(const Simulation<float>&);
+template Energy state_energy(const Simulation<double>&);
 
 }  // namespace weft::test

@@ -19,6 +19,7 @@ struct UndampedRun {
   double liveliness = 1, tolerance = Bdf2Description().tolerance;  ///< of implicit methods
   double processor =
       std::numeric_limits<double>::infinity();  ///< s; past it a run of kLeastSeconds or more ends
+  bool in_double = false;                       ///< in double precision
 };
 
 void PrintTo(const UndampedRun& run, std::ostream* out);
@@ -36,6 +37,7 @@ struct Energy {
 /// Symplectic Euler's velocities are those of half a substep before its positions (leapfrog's: Hairer,
 /// Lubich, Wanner, Geometric Numerical Integration, I.1.4). Energy is that of both at one time, so they are
 /// brought forward by half a substep's force.
-Energy state_energy(const Simulation<float>& simulation);
+template <class Real>
+Energy state_energy(const Simulation<Real>& simulation);
 
 }  // namespace weft::test

@@ -39,8 +39,9 @@ struct Outcome {
   double seconds = 0;  ///< that were run
 };
 
-Outcome outcome_of(const Run& run) {
-  Simulation<float> simulation(scene_of(run));
+template <class Real>
+Outcome outcome_in(const Run& run) {
+  Simulation<Real> simulation(scene_of(run));
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) simulation.request_level(i, run.level);
   simulation.step();  // in which the level changes
   // Here the method begins anew: what that step took of the energy is not due any more.
@@ -63,9 +64,13 @@ Outcome outcome_of(const Run& run) {
     if (step >= steps - 10 * run.rate) last = std::max(last, energy.kinetic);
   }
   double mass = 0;
-  for (const Cloth<float>& cloth : simulation.cloths()) mass += cloth.total_mass();
+  for (const Cloth<Real>& cloth : simulation.cloths()) mass += cloth.total_mass();
   const double rounding = 6e-8 * mass * standard_gravity().norm();
   return {most - start < rounding ? 0 : (most - start) / moving, last / moving, double(step) / run.rate};
+}
+
+Outcome outcome_of(const Run& run) {
+  return run.in_double ? outcome_in<double>(run) : outcome_in<float>(run);
 }
 
 class UndampedEnergy : public ::testing::TestWithParam<Run> {};
@@ -138,7 +143,11 @@ std::vector<Run> all_presets() {
   std::vector<Run> runs;
   int i = 0;
   for (const scene::Preset& preset : scene::presets()) {
-    for (const Method method : kMethods) runs.push_back(spread(std::string(preset.name), method, i++, 20));
+    for (const Method method : kMethods) {
+      runs.push_back(spread(std::string(preset.name), method, i++, 20));
+      // Next to nothing moves, and rounding in single precision shakes plate and springs by more: 24 uJ.
+      runs.back().in_double = preset.name == "paper-screen" && method == Method::symplectic_euler;
+    }
   }
   return runs;
 }

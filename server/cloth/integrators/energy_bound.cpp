@@ -22,9 +22,7 @@ void EnergyBound<Real>::begin_step(Particles<Real>& particles, const Forces<Real
     most_.reset();
     moving_ = wait_ = 0;
   }
-  if (driven) return;
-  start_ = particles.position;
-  if (most_) return;
+  if (driven || most_) return;
   bring_forward(particles, forces, h);
   most_ = forces.energy(particles);
   std::swap(particles.velocity, velocity_);
@@ -39,10 +37,6 @@ double EnergyBound<Real>::end_step(Particles<Real>& particles, const Forces<Real
   moving_ = std::max(moving_, kinetic_energy(particles));
   wait_ = -gain > kFar * moving_ ? kInterval : 0;
   const double left = take_from_motion(particles, gain);
-  if (left == 0 && is_held(particles)) {
-    particles.position = start_;
-    forces.sum(particles, force_);
-  }
   if (left < 1) {
     accelerate(particles, force_, -h / 2);
   } else {

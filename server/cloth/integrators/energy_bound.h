@@ -16,10 +16,6 @@ namespace weft {
 /// stiff modes: of a mode of w rad/s leapfrog keeps (v^2 + w^2 x^2 - h w^2 x v) / 2, and where h w > sqrt(2)
 /// that grows, in the mean, when v becomes 0.
 ///
-/// Where the motion has less than is beyond the bound, all of it is taken, and a held cloth's nodes go back
-/// to where the step began: what moves less than rounding shakes stands still. Otherwise the springs would
-/// wind up step by step, with no motion to take it from.
-///
 /// To see the energy takes a pass over all springs. It is seen after every step while it is near the bound,
 /// and ten times a second where it is far below.
 template <class Real>
@@ -44,7 +40,7 @@ class EnergyBound {
   std::optional<double> most_;  ///< J; nothing while the cloth is driven
   double moving_ = 0;           ///< the largest kinetic energy seen since, J
   double wait_ = 0;             ///< until the energy is seen again, s
-  VectorField<Real> start_, velocity_, force_;
+  VectorField<Real> velocity_, force_;
 };
 
 extern template class EnergyBound<float>;
