@@ -61,6 +61,34 @@ Vec3 SoftPins<Real>::pull(const PinRegion& region, const Particles<Real>& partic
 }
 
 template <class Real>
+std::vector<BodySpring> SoftPins<Real>::on_bodies(const Particles<Real>& particles,
+                                                  const std::vector<Solid>& solids, double time, double dt,
+                                                  const Substep& substep) {
+  std::vector<BodySpring> springs;
+  if (substep.from > 0) {  // the substeps before have bent the solids' ways
+    std::vector<Solid> in_world;
+    in_world.reserve(solids.size());
+    for (const Solid& solid : solids) in_world.push_back(solid.from(-particles.place));
+    begin_step(in_world, time, dt);
+  }
+  move_places(time + substep.to * dt);
+  for (const Held& held : held_) {
+    if (!held.region.obstacle && !held.region.ball) continue;
+    const ColliderId id = collider_of(held.region);
+    const auto solid =
+        std::find_if(solids.begin(), solids.end(), [&](const Solid& each) { return each.id == id; });
+    if (solid == solids.end() || !solid->yields()) continue;
+    const Vec3 centre = particles.place + solid->at(substep.to);
+    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+      const Vec3 arm = solid->yields_turning() ? Vec3(place_of(spring.node) - centre) : Vec3(0, 0, 0);
+      springs.push_back(
+          {spring.node, static_cast<std::size_t>(solid - solids.begin()), arm, way, spring.stiffness});
+    });
+  }
+  return springs;
+}
+
+template <class Real>
 void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& solids, double time,
                           double dt) const {
   const auto places = kernels::components(std::as_const(places_.position));

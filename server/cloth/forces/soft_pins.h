@@ -1,6 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "cloth/contact/constraints/body_spring.h"
+#include "cloth/core/substep.h"
 #include "cloth/forces/effect.h"
 #include "cloth/shapes/solid.h"
 #include "cloth/sheet/pins.h"
@@ -33,11 +35,21 @@ class SoftPins final : public Effect<Real> {
     return places_of_.moving() && places_of_.begin_step(places_, solids, time, dt);
   }
 
-  /// A step of `dt` to `time`, s, has been made among the solids, which are as the cloth leaves them and sees
-  /// them: those that yield get the impulse of the force at its end, against the pins' pull. Summed over
-  /// steps that is what the cloth gets, but for a step's force at either end: nothing drifts. Stable as a
-  /// spring is that is stepped by symplectic Euler's method, while k dt^2 < 4 m at the body's points; a scene
-  /// holds kPinBound.
+  /// Those on solids that yield, as seen in a substep of the step that has begun, from `time` on: with the
+  /// nodes where they are, and the places where they are at its end. The solids are as the cloth sees them.
+  std::vector<BodySpring> on_bodies(const Particles<Real>& particles, const std::vector<Solid>& solids,
+                                    double time, double dt, const Substep& substep);
+  /// Of all its springs.
+  std::size_t count() const {
+    std::size_t sum = 0;
+    for (const Held& held : held_) sum += held.springs.size();
+    return sum;
+  }
+  /// Explicit methods: a step of `dt` to `time`, s, has been made among the solids, which are as the cloth
+  /// leaves them and sees them: those that yield get the impulse of the force at its end, against the pins'
+  /// pull. Summed over steps that is what the cloth gets, but for a step's force at either end: nothing
+  /// drifts. Stable as a spring is that is stepped by symplectic Euler's method, while k dt^2 < 4 m at the
+  /// body's points; a scene holds kPinBound.
   void push(const Particles<Real>& particles, std::vector<Solid>& solids, double time, double dt) const;
 
   /// Calls visit(node, stiffness), in N/m, for each of its springs: for methods that take them implicitly.

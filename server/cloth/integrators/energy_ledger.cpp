@@ -50,7 +50,7 @@ void EnergyLedger<Real>::begin_step(const Particles<Real>& particles, const Forc
   if (forces.drive == Drive::other || account_) return;
   const double springs = forces.sheet->energy(particles.position);
   const double now = motion_energy(particles).beside_centre + springs;
-  const double now_whole = motion_energy(particles, true).inner + springs;
+  const double now_whole = motion_energy(particles, Freedom::none()).inner + springs;
   // Beside the centre of mass gravity has none, and it is the only effect with any.
   account_ = {.drive = forces.drive,
               .most = is_held(particles) ? now + height(particles, forces, 0) : now,
@@ -87,12 +87,14 @@ void EnergyLedger<Real>::count_work(const Particles<Real>& particles, const Forc
 
 template <class Real>
 double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt,
-                                    bool touched, AdvanceReport& report) {
+                                    bool touched, const Freedom& freedom, AdvanceReport& report) {
   if (!account_) return 1;
   Account& account = *account_;
   const bool pinned = is_held(particles), leans = touched && !pinned, firm = touched || pinned;
-  const MotionEnergy motion = motion_energy(particles, firm);
-  const double springs = forces.sheet->energy(particles.position), now = motion.beside_centre + springs;
+  const MotionEnergy motion = motion_energy(particles, freedom);
+  const double springs = forces.sheet->energy(particles.position);
+  const double now =
+      (firm ? motion_energy(particles, Freedom::none()).inner : motion.beside_centre) + springs;
   account.motion = std::max(motion.inner, account.motion * std::exp(-dt / kOfLate));
   const double work = firm ? work_whole_ : work_;
   double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;
@@ -112,19 +114,19 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                  : account.most - now;
     change = std::min(change, room);
   }
-  account.owed = std::clamp(account.owed - change, -most_owed, most_owed);
+  account.owed = std::clamp(account.owed - change, -most_owed, leans ? 0 : most_owed);
   report.effects_work = work;
   report.contact_took = taken_;
   report.energy_lost = lost;
   report.energy_given_back = change;
-  const double scale = add_to_motion(particles, change, firm);
+  const double scale = add_to_motion(particles, change, freedom);
   (firm ? account.now_whole : account.now) = now + change;
   if (pinned) {
     account.now = account.now_whole;
   } else if (leans) {
-    account.most = account.now = motion_energy(particles, false).beside_centre + springs;
+    account.most = account.now = motion_energy(particles, Freedom::all()).beside_centre + springs;
   } else {
-    account.now_whole = motion_energy(particles, true).inner + springs;
+    account.now_whole = motion_energy(particles, Freedom::none()).inner + springs;
   }
   return scale;
 }

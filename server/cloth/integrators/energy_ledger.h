@@ -3,6 +3,7 @@
 
 #include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/integrator.h"
+#include "cloth/sheet/freedom.h"
 
 namespace weft {
 
@@ -28,7 +29,8 @@ namespace weft {
 /// The energy of a cloth of which no node is held is that beside its centre of mass: a fall's formula has its
 /// own error, which is none of the inner motion's. While such a cloth leans on something, that makes inner
 /// motion of its fall and takes up momentum, as held nodes do: a strip that slides off a rail, the sides of a
-/// drape. There all its energy counts, with height, and all its velocities are scaled.
+/// drape. There all its energy counts, with height, and all its velocities are scaled but those of the rigid
+/// motion that nothing pushes (Freedom): a floor does not push a sheet sideways.
 template <class Real>
 class EnergyLedger {
  public:
@@ -57,12 +59,12 @@ class EnergyLedger {
     taken_ += work.taken;
     led_out_ += work.led_out;
   }
-  /// After a step of `dt` seconds, in which something may have touched the cloth. Returns by what each
-  /// velocity was multiplied: what else the integrator remembers of the motion it has to scale likewise
-  /// (scale_motion), as if the cloth were held where it was touched. Tells `report` what was lost and what
+  /// After a step of `dt` seconds, in which something may have touched the cloth and left it that freedom.
+  /// Returns by what each velocity beside the free rigid motion was multiplied: what else the integrator
+  /// remembers of the motion it has to scale likewise (scale_motion). Tells `report` what was lost and what
   /// given back.
   double end_step(Particles<Real>& particles, const Forces<Real>& forces, double dt, bool touched,
-                  AdvanceReport& report);
+                  const Freedom& freedom, AdvanceReport& report);
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {

@@ -31,13 +31,13 @@ struct Forces {
   const Sheet<Real>* sheet = nullptr;
   const std::vector<std::unique_ptr<Effect<Real>>>* effects = nullptr;
   EffectContext context;
-  const Pins<Real>* pins = nullptr;           ///< if any of them moves
-  const SoftPins<Real>* soft_pins = nullptr;  ///< the one among the effects, if some hold
-  LayerContacts<Real>* layers = nullptr;      ///< if layers of cloth lie near one another in this step
-  bool layered = false;                       ///< some may, in the scene
-  Bag<Real>* bag = nullptr;                   ///< of a sewn cloth
-  Drive drive = Drive::other;                 ///< what may do work on the cloth in this step
-  bool disturbed = false;                     ///< something may have given it energy since the last step
+  const Pins<Real>* pins = nullptr;       ///< if any of them moves
+  SoftPins<Real>* soft_pins = nullptr;    ///< the one among the effects, if some hold
+  LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
+  bool layered = false;                   ///< some may, in the scene
+  Bag<Real>* bag = nullptr;               ///< of a sewn cloth
+  Drive drive = Drive::other;             ///< what may do work on the cloth in this step
+  bool disturbed = false;                 ///< something may have given it energy since the last step
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {

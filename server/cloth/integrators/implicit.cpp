@@ -6,6 +6,7 @@
 #include "cloth/core/clock.h"
 #include "cloth/integrators/fast_solids.h"
 #include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
 #include "cloth/sheet/tear/pieces.h"
 
@@ -49,6 +50,8 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   StepFormula<Real>& formula = memory_->formula;
   memory_->ledger.begin_step(particles, forces, formula.lead() != nullptr ? h / 2 : 0);
   ContactConstraints<Real>& contacts = memory_->contacts;
+  const Freedom unpushed = freedom_of(particles);
+  Freedom freedom = unpushed;  // what the last substep in which something touched it left the cloth
   bool touched = false;
   for (int substep = 0; substep < report.substeps; ++substep) {
     const Substep part = Substep::of(substep, report.substeps, dt);
@@ -65,9 +68,19 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
     forces.context.step = h;
     forces.carry_pins(particles, forces.context.time);
+    bool hung = false;  // all that soft pins hold is bodies
+    if (forces.soft_pins != nullptr && contact != nullptr) {
+      const auto springs = forces.soft_pins->on_bodies(particles, solids, time, dt, part);
+      contacts.hang(springs, particles, solids, state_->system.bodies());
+      hung = springs.size() == forces.soft_pins->count();
+    }
     if (forces.layers != nullptr) forces.layers->begin(particles, part, state_->motion.near_rest());
     begin_substep(particles, forces, h);
-    memory_->momentum.begin_substep(particles, forces, solids);
+    if (contacts.hangs() && !hung) {
+      memory_->momentum.restart();
+    } else {
+      memory_->momentum.begin_substep(particles, forces, solids, hung);
+    }
     report.linear_iterations += find_move(particles, forces, h);
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
@@ -86,15 +99,25 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
     memory_->ledger.count_work(particles, forces,
                                {formula.start(), formula.start_velocity(),
                                 forces.sheet->damped() ? &state_->way : nullptr, formula.lead(), h});
+    Freedom now = unpushed;
+    bool rubs = false;
+    if (contact != nullptr && !unpushed.is_none()) {
+      const auto firm = contacts.firm(contact->touches(), particles, solids);
+      rubs = firm.rubs;
+      now = rubs ? Freedom::none() : freedom_beside(firm.pushes, particles);
+    }
     const double kept = memory_->momentum.end_substep(particles, forces, solids, formula.start(), contact,
-                                                      contacts.pushed_by_firm(), formula.by_bdf2(), h);
-    if (kept != 1) formula.scale(particles, kept, is_held(particles));
-    touched = touched || report.nodes_in_contact > 0 || !contacts.empty();
+                                                      now, rubs, formula.by_bdf2(), h);
+    if (kept != 1) formula.scale(particles, kept, now);
+    if (report.nodes_in_contact > 0 || !contacts.empty()) {
+      touched = true;
+      freedom = now;
+    }
     end_substep(particles, contact);
   }
-  const double scale = memory_->ledger.end_step(particles, forces, dt, touched, report);
+  const double scale = memory_->ledger.end_step(particles, forces, dt, touched, freedom, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
-  if (scale != 1) formula.scale(particles, scale, touched || is_held(particles));
+  if (scale != 1) formula.scale(particles, scale, freedom);
   report.sound = state_->sound;
   return report;
 }
@@ -152,9 +175,13 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Force
   if (forces.layers != nullptr) forces.layers->for_each_node(break_motion);
   formula.prepare();
   const bool solids = !memory_->contacts.empty();
-  const bool touched =
-      solids || (forces.layers != nullptr && !forces.layers->empty()) || forces.sheet->torn() != nullptr;
-  s.target = s.motion.target(parameters_.tolerance * (touched ? kTouched : 1), solids);
+  const bool touched = solids || memory_->contacts.hangs() ||
+                       (forces.layers != nullptr && !forces.layers->empty()) ||
+                       forces.sheet->torn() != nullptr;
+  // A weight on the cloth pulls as many times harder, and what bends the threads that it hangs on turns as
+  // much of that pull aside: solved for the cloth's own motion alone, it would swing itself up.
+  const double share = memory_->contacts.hung_share(total_mass(particles), *surroundings_.solids);
+  s.target = s.motion.target(parameters_.tolerance * (touched ? kTouched : 1) * share * share, solids);
 }
 
 template <class Real>
@@ -187,7 +214,7 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
     kernels::assemble_system<Real>(mass, finest.free(), step, iterate, finest.diagonal(), s.b, count);
   }
   s.system.couplings().clear();
-  if (!memory_->contacts.empty()) {
+  if (!memory_->contacts.empty() || memory_->contacts.hangs()) {
     memory_->contacts.add_to(finest.matrix.blocks, s.system.couplings(), s.b, s.system.bodies(),
                              finest.diagonal(), forces.sheet->springs().node_stiffness(), s.piece_mass,
                              s.move);
@@ -217,33 +244,6 @@ void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<
 }
 
 template <class Real>
-int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& forces, double h) {
-  State& s = *state_;
-  guess_move(h);
-  NewtonReport report = iterate(particles, forces, Take::whole);
-  if (report.brought_in <= 0) return report.linear_iterations;
-  memory_->formula.return_to_start(particles);
-  // Past motion says little about what follows: from here on as backward Euler, the next substep too.
-  memory_->formula.break_all();
-  memory_->formula.prepare();
-  guess_move(h);
-  const NewtonReport searched = iterate(particles, forces, Take::searched);
-  s.sound = s.sound && searched.found;
-  return report.linear_iterations + searched.linear_iterations;
-}
-
-template <class Real>
-void Implicit<Real>::guess_move(double h) {
-  // Every node goes on as it went.
-  State& s = *state_;
-  const std::size_t count = s.system.grid().size();
-  clear(s.move, count);
-  s.system.bodies().reset();
-  kernels::scaled_difference<Real>(kernels::components(memory_->formula.start_velocity()), s.move,
-                                   static_cast<Real>(h), s.change, count);
-}
-
-template <class Real>
 void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& contact,
                                      std::vector<Solid>& solids, const Substep& part, AdvanceReport& report) {
   State& s = *state_;
@@ -251,7 +251,7 @@ void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& 
   const StepFormula<Real>& formula = memory_->formula;
   double before = 0;
   if (ledger.counts()) {
-    before = motion_energy(particles, true).inner;
+    before = motion_energy(particles, Freedom::none()).inner;
     ledger.count_contact(
         memory_->contacts.work(s.move,
                                {kernels::components(formula.start_velocity()),
@@ -260,7 +260,7 @@ void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& 
                                s.system.bodies()));
   }
   report.nodes_in_contact = contact.resolve(particles, solids, part, &formula.start());
-  if (ledger.counts()) ledger.count_contact({before - motion_energy(particles, true).inner, 0});
+  if (ledger.counts()) ledger.count_contact({before - motion_energy(particles, Freedom::none()).inner, 0});
 }
 
 template <class Real>

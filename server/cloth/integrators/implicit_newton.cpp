@@ -46,6 +46,33 @@ constexpr double kWorkOfNewton = 10;
 }  // namespace
 
 template <class Real>
+int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& forces, double h) {
+  State& s = *state_;
+  guess_move(h);
+  NewtonReport report = iterate(particles, forces, Take::whole);
+  if (report.brought_in <= 0) return report.linear_iterations;
+  memory_->formula.return_to_start(particles);
+  // Past motion says little about what follows: from here on as backward Euler, the next substep too.
+  memory_->formula.break_all();
+  memory_->formula.prepare();
+  guess_move(h);
+  const NewtonReport searched = iterate(particles, forces, Take::searched);
+  s.sound = s.sound && searched.found;
+  return report.linear_iterations + searched.linear_iterations;
+}
+
+template <class Real>
+void Implicit<Real>::guess_move(double h) {
+  // Every node goes on as it went.
+  State& s = *state_;
+  const std::size_t count = s.system.grid().size();
+  clear(s.move, count);
+  s.system.bodies().reset();
+  kernels::scaled_difference<Real>(kernels::components(memory_->formula.start_velocity()), s.move,
+                                   static_cast<Real>(h), s.change, count);
+}
+
+template <class Real>
 auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Take take)
     -> NewtonReport {
   State& s = *state_;
@@ -147,10 +174,14 @@ bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContact
   return true;
 }
 
+template int Implicit<float>::find_move(Particles<float>&, const Forces<float>&, double);
+template void Implicit<float>::guess_move(double);
 template auto Implicit<float>::iterate(Particles<float>&, const Forces<float>&, Take) -> NewtonReport;
 template bool Implicit<float>::let_go(const Particles<float>&);
 template bool Implicit<float>::hold_inside(const Particles<float>&, const Springs<float>&, double);
 template bool Implicit<float>::hold_meeting(const Particles<float>&, LayerContacts<float>&);
+template int Implicit<double>::find_move(Particles<double>&, const Forces<double>&, double);
+template void Implicit<double>::guess_move(double);
 template auto Implicit<double>::iterate(Particles<double>&, const Forces<double>&, Take) -> NewtonReport;
 template bool Implicit<double>::let_go(const Particles<double>&);
 template bool Implicit<double>::hold_inside(const Particles<double>&, const Springs<double>&, double);

@@ -75,23 +75,18 @@ bool MomentumKeeper<Real>::applies(const Particles<Real>& particles, const Force
 
 template <class Real>
 void MomentumKeeper<Real>::begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
-                                         const std::vector<Solid>& solids) {
+                                         const std::vector<Solid>& solids, bool hung) {
+  hung_ = hung;
   before_ = forces.disturbed ? Motion{} : now_;
   now_ = applies(particles, forces) ? motion_of(particles) : Motion{};
   if (now_.known) solids_ = solids;
 }
 
 template <class Real>
-auto MomentumKeeper<Real>::touched_by(const std::vector<Solid>& solids, const Contact<Real>* contact)
-    -> Touched {
-  Touched touched;
-  if (contact == nullptr) return touched;
-  for (const Touch& touch : contact->touches()) {
-    const auto solid = std::find_if(solids.begin(), solids.end(),
-                                    [&](const Solid& each) { return each.id == touch.collider; });
-    (solid == solids.end() || solid->yields() ? touched.yielding : touched.firm) = true;
-  }
-  return touched;
+bool MomentumKeeper<Real>::touched_by_body(const std::vector<Solid>& solids, const Contact<Real>* contact) {
+  if (contact == nullptr) return false;
+  return std::any_of(contact->touches().begin(), contact->touches().end(),
+                     [&](const Touch& touch) { return solid_of(touch, solids).yields(); });
 }
 
 template <class Real>
@@ -99,7 +94,7 @@ auto MomentumKeeper<Real>::input(const Particles<Real>& particles, const Forces<
                                  const std::vector<Solid>& solids, const VectorField<Real>& start) -> Input {
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) force_ = VectorField<Real>(grid);
-  forces.sum_effects(particles, force_);
+  forces.sum_effects(particles, force_, hung_ ? forces.soft_pins : nullptr);
   Input input;
   Vec3 moved(0, 0, 0);
   const auto each_force = kernels::components(std::as_const(force_));
@@ -137,11 +132,10 @@ bool MomentumKeeper<Real>::all_by_bdf2(const std::vector<Solid>& solids,
 template <class Real>
 double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Forces<Real>& forces,
                                          const std::vector<Solid>& solids, const VectorField<Real>& start,
-                                         const Contact<Real>* contact, bool pushed,
+                                         const Contact<Real>* contact, const Freedom& freedom, bool rubs,
                                          const Field<Real>* second_order, double h) {
   if (!now_.known) return 1;
-  const Touched touched = touched_by(solids, contact);
-  if (pushed || touched.firm) {
+  if (rubs || freedom.is_none()) {
     restart();
     return 1;
   }
@@ -149,7 +143,7 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   const Vec3 point = now_.centre;
   Vec3 momentum = now_.momentum + h * given.force + given.momentum;
   Vec3 angular = now_.about(point) + h * given.torque + given.angular_momentum;
-  if (!touched.yielding && all_by_bdf2(solids, second_order)) {
+  if (!touched_by_body(solids, contact) && all_by_bdf2(solids, second_order)) {
     momentum = (4 * now_.momentum - before_.momentum + 2 * h * given.force) / 3;
     angular = (4 * now_.about(point) - before_.about(point) + 2 * h * given.torque) / 3;
   }
@@ -158,8 +152,15 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   const Vec3 missing = momentum - end.momentum;
   const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
   const Eigen::Matrix3d inertia = inertia_about(end.centre, particles);
-  const Vec3 shift = missing / end.mass;
+  Vec3 shift = missing / end.mass;
   Vec3 turn = inertia.completeOrthogonalDecomposition().solve(missing_spin);
+  if (!freedom.is_all()) {
+    Freedom::Screw momenta;
+    momenta << missing, missing_spin;
+    const Freedom::Screw motion = freedom.motion(momenta, end.mass, inertia);
+    shift = motion.head<3>();
+    turn = motion.tail<3>();
+  }
   if (!shift.allFinite() || !turn.allFinite()) return 1;
   double excess = 0;  // what the turning needs more than there is, J
   const double linear = end.spin.dot(turn), square = turn.dot(inertia * turn) / 2;
@@ -168,7 +169,7 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
     const double had =
         now_.kinetic + forces.sheet->energy(start) + given.work + given.energy - mean.dot(given.momentum);
     const double left = had - end.kinetic - forces.sheet->energy(particles.position);
-    const double share = share_within(left + motion_energy(particles).inner, linear, square);
+    const double share = share_within(left + motion_energy(particles, freedom).inner, linear, square);
     turn *= share;
     excess = share * (linear + share * square) - std::max(0.0, left);
   }
@@ -176,7 +177,8 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   for_each_node(particles.grid(), [&](std::size_t i, int r, int c) {
     add(velocity, i, Vec3(shift + turn.cross(particles.position_at(r, c) - end.centre)));
   });
-  return take_from_motion(particles, excess);
+  if (!freedom.is_all()) restart();  // a push breaks what BDF2 goes on from
+  return take_from_motion(particles, excess, freedom);
 }
 
 template class MomentumKeeper<float>;

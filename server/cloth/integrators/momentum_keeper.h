@@ -1,5 +1,6 @@
 #pragma once
 #include "cloth/integrators/integrator.h"
+#include "cloth/sheet/freedom.h"
 
 namespace weft {
 
@@ -14,20 +15,26 @@ namespace weft {
 /// motion. Of a sheet that drew together as its solve failed both may be too little for the same angular
 /// momentum: then it turns as fast as they allow.
 ///
-/// It leaves alone what solids that stand firm touch, as their force is not known to the last digit, torn
-/// sheets, whose pieces do not move as one, and what other cloths or gas press on.
+/// What stands firm and does not rub pushes along its normals, by forces that are not known to the last
+/// digit: then it is the momenta of the rigid motions against which nothing pushes that are given back, as
+/// those of a sheet that slides on a smooth floor.
+///
+/// It leaves alone what rubs on what stands firm, torn sheets, whose pieces do not move as one, and what
+/// other cloths or gas press on.
 template <class Real>
 class MomentumKeeper {
  public:
-  /// Particles and solids as a substep begins.
+  /// Particles and solids as a substep begins. `hung`: all soft pins are on solids that yield, which have
+  /// their pull from the same solve.
   void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
-                     const std::vector<Solid>& solids);
+                     const std::vector<Solid>& solids, bool hung = false);
   /// As it ends; the nodes have come from `start`. `second_order` tells, node by node, if it was stepped by
-  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. `pushed`:
-  /// what stands firm has pushed it. Returns by what the inner motion was multiplied (scale_motion).
+  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. `freedom`
+  /// is what firm solids leave it; `rubs`: one of them has friction. Returns by what the motion beside the
+  /// free rigid one was multiplied (scale_motion).
   double end_substep(Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
-                     const VectorField<Real>& start, const Contact<Real>* contact, bool pushed,
-                     const Field<Real>* second_order, double h);
+                     const VectorField<Real>& start, const Contact<Real>* contact, const Freedom& freedom,
+                     bool rubs, const Field<Real>* second_order, double h);
   /// What was before says nothing about what follows.
   void restart() { now_ = before_ = {}; }
 
@@ -63,17 +70,15 @@ class MomentumKeeper {
   };
   static Motion motion_of(const Particles<Real>& particles);
   static bool applies(const Particles<Real>& particles, const Forces<Real>& forces);
-  /// A body that does not yield touches the cloth, or one that does.
-  struct Touched {
-    bool firm = false, yielding = false;
-  };
-  static Touched touched_by(const std::vector<Solid>& solids, const Contact<Real>* contact);
+  /// A solid that yields touches the cloth.
+  static bool touched_by_body(const std::vector<Solid>& solids, const Contact<Real>* contact);
   Input input(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
               const VectorField<Real>& start);
   bool all_by_bdf2(const std::vector<Solid>& solids, const Field<Real>* second_order) const;
 
   Motion now_, before_;        ///< as the substep begins, and as the one before began
   std::vector<Solid> solids_;  ///< as the substep begins
+  bool hung_ = false;          ///< in this substep
   VectorField<Real> force_;    ///< N
 };
 

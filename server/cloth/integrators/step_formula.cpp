@@ -75,8 +75,8 @@ void StepFormula<Real>::end_substep(Particles<Real>& particles) {
 }
 
 template <class Real>
-void StepFormula<Real>::scale(const Particles<Real>& particles, double factor, bool held) {
-  if (second_order_) scale_motion(particles, factor, last_velocity_, held);
+void StepFormula<Real>::scale(const Particles<Real>& particles, double factor, const Freedom& freedom) {
+  if (second_order_) scale_motion(particles, factor, last_velocity_, freedom);
 }
 
 template class StepFormula<float>;

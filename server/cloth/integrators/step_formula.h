@@ -3,6 +3,7 @@
 
 #include "cloth/core/particles.h"
 #include "cloth/kernels/implicit_kernels.h"
+#include "cloth/sheet/freedom.h"
 #include "cloth/solver/node_arrays.h"
 
 namespace weft {
@@ -37,7 +38,7 @@ class StepFormula {
   /// The node's next substep is one of backward Euler.
   void begin_anew(std::size_t node) { goes_on_.row(0)[node] = Real(0); }
   /// Its velocities were multiplied by this after the step: scales what is remembered of them (scale_motion).
-  void scale(const Particles<Real>& particles, double factor, bool held);
+  void scale(const Particles<Real>& particles, double factor, const Freedom& freedom);
 
   /// Positions, m, and velocities, m/s, as the substep began.
   const VectorField<Real>& start() const { return start_; }

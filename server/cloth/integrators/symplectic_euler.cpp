@@ -163,6 +163,7 @@ AdvanceReport SymplecticEuler<Real>::advance(Particles<Real>& particles, Forces<
   }
   forces.context.time = time + dt;
   bound_.end_step(particles, forces, h, dt);
+  if (forces.soft_pins != nullptr) forces.soft_pins->push(particles, solids, time + dt, dt);
   return report;
 }
 

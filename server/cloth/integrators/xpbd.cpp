@@ -66,6 +66,7 @@ AdvanceReport Xpbd<Real>::advance(Particles<Real>& particles, Forces<Real> force
     forces.join(particles);
     report.contact_seconds += seconds(Clock::now() - moved);
   }
+  if (forces.soft_pins != nullptr) forces.soft_pins->push(particles, solids, time + dt, dt);
   return report;
 }
 

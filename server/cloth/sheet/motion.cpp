@@ -45,12 +45,12 @@ struct RigidMotion {
   Vec3 at(const Vec3& position) const { return velocity + spin.cross(position - centre); }
 };
 
-/// The one with the momentum and angular momentum of nodes of these velocities; none where a node is held.
+/// The free one that has its part of the momentum and angular momentum of nodes of these velocities.
 template <class Real>
 RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<const Real> velocity,
-                         bool held) {
+                         const Freedom& freedom) {
   RigidMotion motion;
-  if (held) return motion;
+  if (freedom.is_none()) return motion;
   motion.still = false;
   motion.centre = centre_of_mass(particles);
   for_each_free(particles,
@@ -61,8 +61,17 @@ RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<c
     angular_momentum += m * (position - motion.centre).cross(at<Real>(velocity, i));
   });
   const Eigen::Matrix3d inertia = inertia_about(motion.centre, particles);
-  // Nodes in one line do not turn about it.
-  motion.spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
+  if (freedom.is_all()) {
+    // Nodes in one line do not turn about it.
+    motion.spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
+    return motion;
+  }
+  const double mass = total_mass(particles);
+  Freedom::Screw momentum;
+  momentum << mass * motion.velocity, angular_momentum;
+  const Freedom::Screw free = freedom.motion(momentum, mass, inertia);
+  motion.velocity = free.head<3>();
+  motion.spin = free.tail<3>();
   return motion;
 }
 
@@ -114,11 +123,12 @@ bool is_held(const Particles<Real>& particles) {
 }
 
 template <class Real>
-MotionEnergy motion_energy(const Particles<Real>& particles, bool held) {
+MotionEnergy motion_energy(const Particles<Real>& particles, const Freedom& freedom) {
   const auto velocity = kernels::components(particles.velocity);
-  RigidMotion rigid = rigid_motion(particles, velocity, held);
+  RigidMotion rigid = rigid_motion(particles, velocity, freedom);
   const double inner = energy_beside(rigid, particles);
   if (rigid.still) return {inner, inner};
+  if (!freedom.is_all()) return {energy_beside(RigidMotion{}, particles), inner};
   rigid.spin.setZero();
   return {energy_beside(rigid, particles), inner};
 }
@@ -147,10 +157,10 @@ void accelerate(Particles<Real>& particles, const VectorField<Real>& force, doub
 }
 
 template <class Real>
-double add_to_motion(Particles<Real>& particles, double energy, bool held) {
+double add_to_motion(Particles<Real>& particles, double energy, const Freedom& freedom) {
   if (!(std::abs(energy) > 0)) return 1;
   const RigidMotion rigid =
-      rigid_motion(particles, kernels::components(std::as_const(particles.velocity)), held);
+      rigid_motion(particles, kernels::components(std::as_const(particles.velocity)), freedom);
   const double motion = energy_beside(rigid, particles);
   if (motion == 0) return 1;
   const double factor = std::sqrt(std::max(0.0, 1 + energy / motion));
@@ -159,31 +169,32 @@ double add_to_motion(Particles<Real>& particles, double energy, bool held) {
 }
 
 template <class Real>
-double take_from_motion(Particles<Real>& particles, double energy, bool held) {
-  return energy > 0 ? add_to_motion(particles, -energy, held) : 1;
+double take_from_motion(Particles<Real>& particles, double energy, const Freedom& freedom) {
+  return energy > 0 ? add_to_motion(particles, -energy, freedom) : 1;
 }
 
 template <class Real>
-void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity, bool held) {
-  scale_about(rigid_motion(particles, kernels::components(std::as_const(velocity)), held), particles, factor,
-              velocity);
+void scale_motion(const Particles<Real>& particles, double factor, VectorField<Real>& velocity,
+                  const Freedom& freedom) {
+  scale_about(rigid_motion(particles, kernels::components(std::as_const(velocity)), freedom), particles,
+              factor, velocity);
 }
 
 template bool is_held(const Particles<float>&);
 template bool is_held(const Particles<double>&);
-template MotionEnergy motion_energy(const Particles<float>&, bool);
-template MotionEnergy motion_energy(const Particles<double>&, bool);
+template MotionEnergy motion_energy(const Particles<float>&, const Freedom&);
+template MotionEnergy motion_energy(const Particles<double>&, const Freedom&);
 template double work_beside_centre(const Particles<float>&, const VectorField<float>&,
                                    const VectorField<float>&, bool);
 template double work_beside_centre(const Particles<double>&, const VectorField<double>&,
                                    const VectorField<double>&, bool);
 template void accelerate(Particles<float>&, const VectorField<float>&, double);
 template void accelerate(Particles<double>&, const VectorField<double>&, double);
-template double add_to_motion(Particles<float>&, double, bool);
-template double add_to_motion(Particles<double>&, double, bool);
-template double take_from_motion(Particles<float>&, double, bool);
-template double take_from_motion(Particles<double>&, double, bool);
-template void scale_motion(const Particles<float>&, double, VectorField<float>&, bool);
-template void scale_motion(const Particles<double>&, double, VectorField<double>&, bool);
+template double add_to_motion(Particles<float>&, double, const Freedom&);
+template double add_to_motion(Particles<double>&, double, const Freedom&);
+template double take_from_motion(Particles<float>&, double, const Freedom&);
+template double take_from_motion(Particles<double>&, double, const Freedom&);
+template void scale_motion(const Particles<float>&, double, VectorField<float>&, const Freedom&);
+template void scale_motion(const Particles<double>&, double, VectorField<double>&, const Freedom&);
 
 }  // namespace weft

@@ -65,7 +65,6 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   AdvanceReport report;
   try {
     report = advance_soundly(solids, air, time, dt);
-    if (soft_pins_ != nullptr && !frozen()) soft_pins_->push(particles_, solids_, time + dt, dt);
   } catch (const TooMuchWork&) {
     guard_.give_up(particles_);
     forget_attempt();

@@ -28,7 +28,6 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   std::swap(last_, constraints_);
   clear();
   bodies.clear();
-  yielding_.clear();
   substep_ = substep;
   const double h = substep.seconds;
   const kernels::Components<const Real> position = kernels::components(particles.position),

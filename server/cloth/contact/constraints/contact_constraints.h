@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "cloth/contact/constraints/body_spring.h"
 #include "cloth/contact/constraints/surface_friction.h"
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/kernels/link_kernels.h"
+#include "cloth/sheet/freedom.h"
 #include "cloth/solver/attached_bodies.h"
 #include "cloth/solver/node_couplings.h"
 #include "cloth/solver/one_sided_springs.h"
@@ -60,6 +62,14 @@ class ContactConstraints {
   void begin(const std::vector<Touch>& touches, const std::vector<Arrival>& arrivals,
              const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
              bool near_rest, AttachedBodies<Real>& bodies);
+  /// After begin: springs as the substep begins, with places as they will be at its end if nothing bends the
+  /// solids' ways. The effects have the springs' forces on the nodes for such ways, and the system their
+  /// stiffness there: here the solids, too, are pulled, in the same system.
+  void hang(const std::vector<BodySpring>& springs, const Particles<Real>& particles,
+            const std::vector<Solid>& solids, AttachedBodies<Real>& bodies);
+  bool hangs() const { return !hung_.empty(); }
+  /// The cloth's share of its mass and that of the solids that hang on it together; 1 without any.
+  double hung_share(double mass, const std::vector<Solid>& solids) const;
   /// Between Newton iterations: holds the nodes that are inside at `move`, or have passed a surface by it,
   /// and are not held yet, if it takes more energy than `missed`, J, to push them out one by one against
   /// links of this stiffness at a node, N/m. False if it holds no more than before.
@@ -99,14 +109,19 @@ class ContactConstraints {
   /// After finish and keep_velocities: what contact did to the cloth.
   Work work(kernels::Components<const Real> move, const Velocities& velocities,
             const AttachedBodies<Real>& bodies) const;
-  /// After finish: something that stands firm pushed the cloth in the substep.
-  bool pushed_by_firm() const {
-    return std::any_of(constraints_.begin(), constraints_.end(),
-                       [](const Constraint& c) { return !c.body && c.force > 0; });
-  }
+  /// After finish: what stands firm and pushed the cloth in the substep.
+  struct Firm {
+    std::vector<Push> pushes;  ///< in the world
+    bool rubs = false;         ///< with friction
+  };
+  /// Its own constraints, and what else the cloth touches now, at the substep's end.
+  Firm firm(const std::vector<Touch>& touches, const Particles<Real>& particles,
+            const std::vector<Solid>& solids) const;
   void clear() {
     constraints_.clear();
     not_held_.clear();
+    yielding_.clear();
+    hung_.clear();
   }
   bool empty() const { return constraints_.empty(); }
   /// The cloth tore: where a point between nodes was held may be a hole.
@@ -134,12 +149,14 @@ class ContactConstraints {
   void keep_velocities(kernels::Components<Real> velocity) const;
 
   /// Calls visit(node index) for every constrained node, and those of every constrained point, whose motion
-  /// contact breaks in this substep: all but what firm solids have pressed upon in the last two.
+  /// contact breaks in this substep: all but what firm solids have pressed upon in the last two; and those of
+  /// springs on bodies, which are stepped by backward Euler.
   template <class Visit>
   void for_each_broken(Visit visit) const {
     for (const Constraint& c : constraints_) {
       if (!c.lasts()) c.point.for_each_node([&](std::size_t node, double) { visit(node); });
     }
+    for (const Hung& hung : hung_) visit(hung.spring.node);
   }
   /// After finish: what touches so moves smoothly in the next substep, too, if contact goes on.
   bool goes_on(const Touch& touch) const {
@@ -192,6 +209,11 @@ class ContactConstraints {
     /// The most that friction holds as it has moved, N.
     double holds(const Vec3& moved) const;
   };
+  struct Hung {
+    BodySpring spring;
+    ClothPoint<Real> point;
+    int body;
+  };
   static bool is_before(const Constraint& c, const Touch& touch);
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
@@ -222,6 +244,7 @@ class ContactConstraints {
   std::vector<Constraint> constraints_, last_;
   std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
+  std::vector<Hung> hung_;
   Substep substep_;
   bool near_rest_ = false;
 };

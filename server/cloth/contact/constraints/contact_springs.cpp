@@ -13,7 +13,7 @@ namespace {
 /// that it follows within a substep, and no stiffer, since a solve must tell its force (ContactConstraints).
 constexpr double kDepth = 1.0 / 32;
 /// A spring bears from so many depths outside of the surface.
-constexpr double kMargin = 2;
+constexpr double kBearsFrom = 2;
 /// At most, as a multiple of the links' stiffness at the node; more would cost digits in single precision.
 constexpr double kLinkMultiple = 1;
 /// A body is held by that and this multiple of the node's inertia: it bears far more than the node weighs.
@@ -52,7 +52,7 @@ double ContactConstraints<Real>::depth() const {
 
 template <class Real>
 double ContactConstraints<Real>::margin() const {
-  return kMargin * depth();
+  return kBearsFrom * depth();
 }
 
 template <class Real>
@@ -120,6 +120,13 @@ void ContactConstraints<Real>::add_to(kernels::Blocks<Real> blocks, NodeCoupling
     }
     c.point.add_force(b, force);
     if (c.body) bodies.attach(*c.body, c.point, c.arm, stiffness, force);
+  }
+  for (const Hung& hung : hung_) {
+    const BodySpring& spring = hung.spring;
+    const Vec3 by_body = spring.stiffness * bodies.move(hung.body, spring.arm),
+               force = spring.stiffness * (spring.apart - hung.point.moved_by(move)) + by_body;
+    hung.point.add_force(b, by_body);
+    bodies.attach(hung.body, hung.point, spring.arm, spring.stiffness * Eigen::Matrix3d::Identity(), force);
   }
   bodies.eliminate(b);
 }

@@ -45,7 +45,11 @@ struct Booked {
   void begin() { ledger.begin_step(rig.particles, forces(), 0); }
   double end(bool touched = false) {
     report = {};
-    return ledger.end_step(rig.particles, forces(), kLedgerStep, touched, report);
+    return ledger.end_step(rig.particles, forces(), kLedgerStep, touched, freedom(), report);
+  }
+  /// What the pushes leave it.
+  Freedom freedom() const {
+    return is_held(rig.particles) ? Freedom::none() : freedom_beside(pushes, rig.particles);
   }
   /// Of springs and motion beside the centre of mass, J.
   double inner_energy() const {
@@ -61,6 +65,7 @@ struct Booked {
   Rig<double> rig;
   EnergyLedger<double> ledger;
   Drive drive;
+  std::vector<Push> pushes;
   AdvanceReport report;
 };
 

@@ -122,7 +122,7 @@ TEST_F(Formula, TellsTheAccelerationAndScalesWhatItRemembers) {
   end(formula);
   begin(formula);
   const double whole = formula.coefficients().free_move.x[0];
-  formula.scale(sheet, 0.5, true);
+  formula.scale(sheet, 0.5, Freedom::none());
   formula.prepare();
   // Without forces 3 v_new = 4 v - v_last, and the move is v_new / rate + last move / 3, rate = 3/(2h): half
   // of v_last less is a move of h v_last / 9 more.

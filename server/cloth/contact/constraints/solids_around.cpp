@@ -1,0 +1,65 @@
+/// ContactConstraints and the solids around: those that hang on the cloth, and what stands firm.
+#include <algorithm>
+#include <optional>
+
+#include "cloth/contact/constraints/contact_constraints.h"
+
+namespace weft {
+
+template <class Real>
+void ContactConstraints<Real>::hang(const std::vector<BodySpring>& springs, const Particles<Real>& particles,
+                                    const std::vector<Solid>& solids, AttachedBodies<Real>& bodies) {
+  for (const BodySpring& spring : springs) {
+    const ClothPoint<Real> point(PointId{spring.node}, particles);
+    const std::optional<int> body = body_of(solids[spring.solid], solids, bodies);
+    if (body) hung_.push_back({spring, point, *body});
+  }
+}
+
+template <class Real>
+auto ContactConstraints<Real>::firm(const std::vector<Touch>& touches, const Particles<Real>& particles,
+                                    const std::vector<Solid>& solids) const -> Firm {
+  Firm firm;
+  const kernels::Components<const Real> position = kernels::components(particles.position);
+  const auto push = [&](const ClothPoint<Real>& point, const Vec3& normal, double friction) {
+    firm.pushes.push_back({particles.place + point.of(position), normal});
+    firm.rubs = firm.rubs || friction > 0;
+  };
+  const auto pushed = [](const Constraint& c) { return !c.body && c.force > 0; };
+  for (const Constraint& c : constraints_) {
+    if (pushed(c)) push(c.point, c.normal, c.coefficient);
+  }
+  for (const Touch& touch : touches) {
+    const Solid& solid = solid_of(touch, solids);
+    if (solid.yields()) continue;
+    const auto same = std::lower_bound(constraints_.begin(), constraints_.end(), touch, is_before);
+    if (same != constraints_.end() && same->touch == touch && pushed(*same)) continue;
+    const ClothPoint<Real> point(touch.point(), particles);
+    push(point, solid.placed(substep_.to).surface(point.of(position)).normal, solid.friction);
+  }
+  return firm;
+}
+
+template <class Real>
+double ContactConstraints<Real>::hung_share(double mass, const std::vector<Solid>& solids) const {
+  std::vector<std::size_t> hung;
+  for (const Hung& each : hung_) hung.push_back(each.spring.solid);
+  std::sort(hung.begin(), hung.end());
+  hung.erase(std::unique(hung.begin(), hung.end()), hung.end());
+  double sum = mass;
+  for (const std::size_t solid : hung) sum += 1 / solids[solid].inverse_mass;
+  return mass / sum;
+}
+
+template void ContactConstraints<float>::hang(const std::vector<BodySpring>&, const Particles<float>&,
+                                              const std::vector<Solid>&, AttachedBodies<float>&);
+template void ContactConstraints<double>::hang(const std::vector<BodySpring>&, const Particles<double>&,
+                                               const std::vector<Solid>&, AttachedBodies<double>&);
+template double ContactConstraints<float>::hung_share(double, const std::vector<Solid>&) const;
+template double ContactConstraints<double>::hung_share(double, const std::vector<Solid>&) const;
+template auto ContactConstraints<float>::firm(const std::vector<Touch>&, const Particles<float>&,
+                                              const std::vector<Solid>&) const -> Firm;
+template auto ContactConstraints<double>::firm(const std::vector<Touch>&, const Particles<double>&,
+                                               const std::vector<Solid>&) const -> Firm;
+
+}  // namespace weft
