@@ -14,6 +14,14 @@ bool is_same(const PinRegion& a, const PinRegion& b) {
          a.from == b.from && a.until == b.until && a.stiffness == b.stiffness;
 }
 
+/// The solid that yields and has the region's places; the end if there is none.
+auto body_of(const PinRegion& region, auto& solids) {
+  if (!region.obstacle && !region.ball) return solids.end();
+  const ColliderId id = collider_of(region);
+  return std::find_if(solids.begin(), solids.end(),
+                      [&](const Solid& each) { return each.id == id && each.yields(); });
+}
+
 }  // namespace
 
 template <class Real>
@@ -73,11 +81,8 @@ std::vector<BodySpring> SoftPins<Real>::on_bodies(const Particles<Real>& particl
   }
   move_places(time + substep.to * dt);
   for (const Held& held : held_) {
-    if (!held.region.obstacle && !held.region.ball) continue;
-    const ColliderId id = collider_of(held.region);
-    const auto solid =
-        std::find_if(solids.begin(), solids.end(), [&](const Solid& each) { return each.id == id; });
-    if (solid == solids.end() || !solid->yields()) continue;
+    const auto solid = body_of(held.region, solids);
+    if (solid == solids.end()) continue;
     const Vec3 centre = particles.place + solid->at(substep.to);
     for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
       const Vec3 arm = solid->yields_turning() ? Vec3(place_of(spring.node) - centre) : Vec3(0, 0, 0);
@@ -93,11 +98,8 @@ void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& 
                           double dt) const {
   const auto places = kernels::components(std::as_const(places_.position));
   for (const Held& held : held_) {
-    if (!held.region.obstacle && !held.region.ball) continue;
-    const ColliderId id = collider_of(held.region);
-    const auto solid =
-        std::find_if(solids.begin(), solids.end(), [&](const Solid& each) { return each.id == id; });
-    if (solid == solids.end() || !solid->yields()) continue;
+    const auto solid = body_of(held.region, solids);
+    if (solid == solids.end()) continue;
     move_places(time);
     Vec3 impulse(0, 0, 0), turning(0, 0, 0);
     for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {

@@ -30,7 +30,8 @@ namespace weft {
 /// own error, which is none of the inner motion's. While such a cloth leans on something, that makes inner
 /// motion of its fall and takes up momentum, as held nodes do: a strip that slides off a rail, the sides of a
 /// drape. There all its energy counts, with height, and all its velocities are scaled but those of the rigid
-/// motion that nothing pushes (Freedom): a floor does not push a sheet sideways.
+/// motion that nothing pushes (Freedom): a floor does not push a sheet sideways. There nothing is owed: what
+/// is lost as cloth lands and crumples would come back as a rise of the energy, long after.
 template <class Real>
 class EnergyLedger {
  public:

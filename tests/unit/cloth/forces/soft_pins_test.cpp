@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cloth/contact/constraints/body_spring.h"
 #include "cloth/world/simulation.h"
 #include "cloth/world/state.h"
 #include "fixtures.h"
@@ -273,6 +274,40 @@ TEST(SoftPins, ShareTheirStiffnessByMass) {
     EXPECT_LT((sum - Vec3(0, 3, 0)).norm(), 1e-12);
     // A corner has half the mass of its neighbour.
     EXPECT_NEAR(2 * test::get(force, 0, 0).y(), test::get(force, 0, 1).y(), 1e-12);
+  }
+}
+
+// Of an edge on a solid that goes 2 cm up in the step: at half of it each node is 1 cm from its place, which
+// is as far from the solid's centre as it was.
+TEST(SoftPins, OnABodyAreSpringsBetweenNodesAndThat) {
+  const SimulationDescription scene = softly_pinned(Bdf2Description{}, {});
+  const Simulation<double> simulation(scene);
+  const Particles<double>& particles = simulation.cloths()[0].particles();
+  const PinRegion region{.u_max = 1, .obstacle = 0, .stiffness = 30};
+  Solid body;
+  body.id = kFirstObstacle;
+  body.shape = Sphere{0.1};
+  body.start = {0, 1, 0.2};
+  body.position = body.start + Vec3(0, 0.02, 0);
+  body.velocity = (body.position - body.start) / 0.1;
+  for (const bool yields : {true, false}) {
+    for (const bool turns : {true, false}) {
+      body.inverse_mass = yields ? 2 : 0;
+      body.inverse_inertia = (turns ? 50 : 0) * Eigen::Matrix3d::Identity();
+      SoftPins<double> pins({region}, {Vec3(0, 0, 0)}, 0, particles);
+      ASSERT_TRUE(pins.begin_step({body}, 0, 0.1));
+      const std::vector<BodySpring> springs = pins.on_bodies(particles, {body}, 0, 0.1, {0, 0.5, 0.05});
+      ASSERT_EQ(springs.size(), yields ? 17U : 0U);
+      double stiffness = 0;
+      for (const BodySpring& spring : springs) {
+        const Vec3 node = particles.position_at(0, static_cast<int>(spring.node));
+        EXPECT_EQ(spring.solid, 0U);
+        EXPECT_LT((spring.apart - Vec3(0, 0.01, 0)).norm(), 1e-12);
+        EXPECT_LT((spring.arm - (turns ? Vec3(node - body.start) : Vec3(0, 0, 0))).norm(), 1e-12);
+        stiffness += spring.stiffness;
+      }
+      EXPECT_NEAR(stiffness, yields ? 30 : 0, 1e-12);
+    }
   }
 }
 
