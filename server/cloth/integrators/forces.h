@@ -38,6 +38,8 @@ struct Forces {
   Bag<Real>* bag = nullptr;               ///< of a sewn cloth
   Drive drive = Drive::other;             ///< what may do work on the cloth in this step
   bool disturbed = false;                 ///< something may have given it energy since the last step
+  /// The step guard has backward Euler rescue the cloth: in as long substeps as it asks for, as they damp.
+  bool rescued = false;
 
   /// Puts moving pins where they are at `time`, s: at a substep's begin, where they are at its end.
   void carry_pins(Particles<Real>& particles, double time) const {

@@ -5,6 +5,7 @@
 
 #include "cloth/core/clock.h"
 #include "cloth/integrators/fast_solids.h"
+#include "cloth/integrators/strong_air.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
@@ -41,9 +42,12 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
                                       std::vector<Solid>& solids, double time, double dt) {
   AdvanceReport report;
   report.substeps = parameters_.substeps;
-  if (contact != nullptr) {
-    report.substeps *= parts_beside_fast_solids(particles, *contact, solids, dt / parameters_.substeps, dt);
-  }
+  forces.context.time = time;
+  const double asked = dt / parameters_.substeps;
+  int parts = forces.rescued ? 1 : parts_in_strong_air(particles, forces, asked);
+  if (contact != nullptr)
+    parts = std::max(parts, parts_beside_fast_solids(particles, *contact, solids, asked, dt));
+  report.substeps *= parts;
   const double h = dt / report.substeps;
   begin_step(particles, forces, h);
   state_->sound = true;

@@ -130,6 +130,18 @@ bool MomentumKeeper<Real>::all_by_bdf2(const std::vector<Solid>& solids,
 }
 
 template <class Real>
+Freedom::Screw MomentumKeeper<Real>::response(const Particles<Real>& particles, const Forces<Real>& forces,
+                                              const Motion& end, const Eigen::Matrix3d& inertia, double h,
+                                              const Freedom::Screw& momenta) {
+  Eigen::Matrix<double, 6, 6> system =
+      h * damping_.matrix(particles, forces, end.centre, hung_ ? forces.soft_pins : nullptr);
+  system.topLeftCorner<3, 3>().diagonal().array() += end.mass;
+  system.bottomRightCorner<3, 3>() += inertia;
+  // Nodes in one line do not turn about it.
+  return system.completeOrthogonalDecomposition().solve(momenta);
+}
+
+template <class Real>
 double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Forces<Real>& forces,
                                          const std::vector<Solid>& solids, const VectorField<Real>& start,
                                          const Contact<Real>* contact, const Freedom& freedom, bool rubs,
@@ -143,7 +155,8 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   const Vec3 point = now_.centre;
   Vec3 momentum = now_.momentum + h * given.force + given.momentum;
   Vec3 angular = now_.about(point) + h * given.torque + given.angular_momentum;
-  if (!touched_by_body(solids, contact) && all_by_bdf2(solids, second_order)) {
+  const bool by_bdf2 = !touched_by_body(solids, contact) && all_by_bdf2(solids, second_order);
+  if (by_bdf2) {
     momentum = (4 * now_.momentum - before_.momentum + 2 * h * given.force) / 3;
     angular = (4 * now_.about(point) - before_.about(point) + 2 * h * given.torque) / 3;
   }
@@ -152,15 +165,15 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   const Vec3 missing = momentum - end.momentum;
   const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
   const Eigen::Matrix3d inertia = inertia_about(end.centre, particles);
-  Vec3 shift = missing / end.mass;
-  Vec3 turn = inertia.completeOrthogonalDecomposition().solve(missing_spin);
+  Freedom::Screw motion = response(particles, forces, end, inertia, by_bdf2 ? 2 * h / 3 : h,
+                                   (Freedom::Screw() << missing, missing_spin).finished());
   if (!freedom.is_all()) {
     Freedom::Screw momenta;
-    momenta << missing, missing_spin;
-    const Freedom::Screw motion = freedom.motion(momenta, end.mass, inertia);
-    shift = motion.head<3>();
-    turn = motion.tail<3>();
+    momenta << end.mass * motion.head<3>(), inertia * motion.tail<3>();
+    motion = freedom.motion(momenta, end.mass, inertia);
   }
+  const Vec3 shift = motion.head<3>();
+  Vec3 turn = motion.tail<3>();
   if (!shift.allFinite() || !turn.allFinite()) return 1;
   double excess = 0;  // what the turning needs more than there is, J
   const double linear = end.spin.dot(turn), square = turn.dot(inertia * turn) / 2;

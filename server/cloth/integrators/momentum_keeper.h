@@ -1,5 +1,6 @@
 #pragma once
 #include "cloth/integrators/integrator.h"
+#include "cloth/integrators/rigid_damping.h"
 #include "cloth/sheet/freedom.h"
 
 namespace weft {
@@ -74,12 +75,18 @@ class MomentumKeeper {
   static bool touched_by_body(const std::vector<Solid>& solids, const Contact<Real>* contact);
   Input input(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
               const VectorField<Real>& start);
+  /// The rigid motion that is missing where these momenta are, N s and N m s about the centre: what damps it
+  /// in `h`, s, takes its part of them. Without, what wind that hardly turned within a solve has not yet
+  /// given would be given at one blow, and speed a light cloth up beyond any bound.
+  Freedom::Screw response(const Particles<Real>& particles, const Forces<Real>& forces, const Motion& end,
+                          const Eigen::Matrix3d& inertia, double h, const Freedom::Screw& momenta);
   bool all_by_bdf2(const std::vector<Solid>& solids, const Field<Real>* second_order) const;
 
   Motion now_, before_;        ///< as the substep begins, and as the one before began
   std::vector<Solid> solids_;  ///< as the substep begins
   bool hung_ = false;          ///< in this substep
   VectorField<Real> force_;    ///< N
+  RigidDamping<Real> damping_;
 };
 
 extern template class MomentumKeeper<float>;

@@ -121,6 +121,7 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   if (all.layered && !layers_->empty()) all.layers = layers_;
   all.drive = drive(all, dt);
   all.disturbed = std::exchange(disturbed_, false);
+  all.rescued = guard_.rung() == Rung::backward_euler_4 || guard_.rung() == Rung::backward_euler_16;
   return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
 }
 

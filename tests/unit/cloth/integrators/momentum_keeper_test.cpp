@@ -170,6 +170,20 @@ TEST(MomentumKeeper, WhatABodyGainsTheClothHasLost) {
   expect_near(cloth.spin() + place.cross(gain / 0.5) + turned / 30, spin);
 }
 
+// Drag takes its part of what is given back, however fast it is: by backward Euler p' = p - h rate p', with
+// the damping over the density as rate.
+TEST(MomentumKeeper, WhatIsGivenBackIsDraggedToo) {
+  for (const double rate : {1.0, 1e3, 1e6}) {
+    Kept cloth({DampingEffect{}});
+    cloth.rig.cloth.material.damping = rate * cloth.rig.cloth.material.density;
+    const Vec3 momentum = cloth.momentum();
+    cloth.begin();
+    cloth.err(5);
+    cloth.end();
+    EXPECT_LT((cloth.momentum() - momentum / (1 + kKeptStep * rate)).norm(), 1e-9 * momentum.norm());
+  }
+}
+
 // A smooth floor pushes up and tilts: momentum along it, and angular momentum about its normal, stay.
 TEST(MomentumKeeper, OnASmoothFloorMomentaAlongItStay) {
   Kept cloth;

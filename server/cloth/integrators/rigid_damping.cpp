@@ -1,0 +1,49 @@
+#include "cloth/integrators/rigid_damping.h"
+
+#include <algorithm>
+
+namespace weft {
+
+template <class Real>
+Eigen::Matrix<double, 6, 6> RigidDamping<Real>::matrix(const Particles<Real>& particles,
+                                                       const Forces<Real>& forces, const Vec3& centre,
+                                                       const Effect<Real>* other) {
+  const Grid& grid = particles.grid();
+  if (scalar_.grid() != grid) {
+    scalar_ = Field<Real>(grid);
+    blocks_.fill(Field<Real>(grid));
+  } else {
+    scalar_.fill(0);
+    for (Field<Real>& block : blocks_) block.fill(0);
+  }
+  auto& [xx, xy, xz, yy, yz, zz] = blocks_;
+  for (const auto& effect : *forces.effects) {
+    if (effect.get() == other) continue;
+    effect->add_damping(particles, forces.context,
+                        {scalar_.row(0), {xx.row(0), xy.row(0), xz.row(0), yy.row(0), yz.row(0), zz.row(0)}});
+  }
+  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.cols; ++c) {
+      const auto entry = [&](const Field<Real>& field) { return double(field.at(r, c)); };
+      Eigen::Matrix3d damping;
+      damping << entry(xx), entry(xy), entry(xz), entry(xy), entry(yy), entry(yz), entry(xz), entry(yz),
+          entry(zz);
+      damping.diagonal().array() += entry(scalar_);
+      const Vec3 arm = particles.position_at(r, c) - centre;
+      Eigen::Matrix3d lever;  // arm x
+      lever << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+      const Eigen::Matrix3d turned = lever * damping;
+      sum.template topLeftCorner<3, 3>() += damping;
+      sum.template bottomLeftCorner<3, 3>() += turned;
+      sum.template topRightCorner<3, 3>() += turned.transpose();
+      sum.template bottomRightCorner<3, 3>() -= turned * lever;
+    }
+  }
+  return sum;
+}
+
+template class RigidDamping<float>;
+template class RigidDamping<double>;
+
+}  // namespace weft

@@ -1,0 +1,17 @@
+#pragma once
+#include "cloth/integrators/forces.h"
+
+namespace weft {
+
+/// Number of parts, 1 to 64, into which a substep of `h` seconds of an implicit method is divided in strong
+/// air. What the air does turns with the faces, which the method's system leaves out (Aerodynamics): how a
+/// face turns is found in iterations, which fail where the air would take a node along many times over in one
+/// part. In each part the air's damping rate (Effect::max_damping_rate) times the part's length is at most 4,
+/// unless 64 are too few.
+template <class Real>
+int parts_in_strong_air(const Particles<Real>& particles, const Forces<Real>& forces, double h);
+
+extern template int parts_in_strong_air(const Particles<float>&, const Forces<float>&, double);
+extern template int parts_in_strong_air(const Particles<double>&, const Forces<double>&, double);
+
+}  // namespace weft
