@@ -156,6 +156,10 @@ class Cloth {
   /// with push_balls(). Several cloths may do it at the same time, each with its share of a ball that they
   /// all touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
+  /// After that: bodies that others have pushed elsewhere since, or that other bodies hit, push what lay on
+  /// them out of their way, along their normals; the cloth's velocities stay. Left inside it would lie deeper
+  /// from step to step, and come out of another side.
+  void make_way(const std::vector<Solid>& solids);
   /// Steps from now on may take at most so much work (interrupt.h); one that would is not made: the cloth
   /// stands still as if no way of stepping it helped. WorkLimit::kNone unless set.
   void set_most_work(double most) { most_work_ = most; }

@@ -65,7 +65,10 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   }
   profile_.contact += layers;
   for (const Cloth<Real>& cloth : cloths_) cloth.push_balls(colliders_);
-  if (colliders_.end_step()) meet_bodies(pins, dt);  // what the cloths press into others stays outside
+  if (colliders_.end_step()) {
+    meet_bodies(pins, dt);  // what the cloths press into others stays outside
+    for (Cloth<Real>& cloth : cloths_) cloth.make_way(colliders_.solids());
+  }
   colliders_.watch(dt);
   collect_guard_events();
 }

@@ -36,7 +36,8 @@ double parts_for_bodies(const Cloth<Real>& cloth, const std::vector<Solid>& soli
   if (!cloth.steps_implicitly()) return 1;
   const auto way = [&](const Solid& solid) { return dt * solid.velocity.norm(); };
   const auto radius = [](const Solid& solid) { return outer_radius(solid.shape); };
-  const auto velocity = kernels::components(cloth.particles().velocity);
+  const auto velocity = kernels::components(cloth.particles().velocity),
+             position = kernels::components(cloth.particles().position);
   double parts = 1;
   const Solid* body = nullptr;
   for (const Touch& touch : cloth.touches()) {
@@ -52,9 +53,11 @@ double parts_for_bodies(const Cloth<Real>& cloth, const std::vector<Solid>& soli
         parts = std::max(parts, way(other) / (kMostOfRadius * inner_radius(other.shape)));
       }
     }
-    const Vec3 speed = ClothPoint<Real>(touch.point(), cloth.particles()).of(velocity);
-    parts =
-        std::max(parts, dt * (speed - body->velocity).norm() / (kMostOfRadius * inner_radius(body->shape)));
+    const ClothPoint<Real> point(touch.point(), cloth.particles());
+    const Vec3 arm = cloth.particles().place + point.of(position) - body->position,
+               of_body = body->velocity + body->spin.cross(arm);
+    parts = std::max(
+        parts, dt * (point.of(velocity) - of_body).norm() / (kMostOfRadius * inner_radius(body->shape)));
   }
   return std::min(parts, kMostForBodies);
 }

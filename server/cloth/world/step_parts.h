@@ -22,8 +22,9 @@ namespace weft {
 ///
 /// A body on a cloth that another body hits, or that the cloth throws off, is elsewhere than the cloth's step
 /// expected, and may be through before the cloth feels it. In a part of an implicit step bodies that touch
-/// the cloth, those that may hit them, and the cloth where it touches them go at most a quarter of the body's
-/// inner radius, up to 4 parts.
+/// the cloth, those that may hit them, and the cloth beside them where it touches them, go at most a quarter
+/// of the body's inner radius, up to 4 parts; what touches a body that spins goes past it as fast as its
+/// surface does.
 template <class Real>
 int step_parts(const std::vector<Cloth<Real>>& cloths, const ClothContact<Real>* layers,
                const std::vector<Solid>& solids, double time, double dt);

@@ -1,6 +1,5 @@
 #include "cloth/contact/constraints/contact_constraints.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
@@ -55,7 +54,9 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     if (solid == solids.end()) continue;
     const ClothPoint<Real> point(touch.point(), particles);
     const Vec3 place = point.of(position), guess = place + h * point.moved_by(velocity);
-    const Surface surface = way_out_of(solid->placed(substep.to), touch.point(), guess, particles.position);
+    const Surface surface =
+        as_before(touch, *solid,
+                  way_out_of(solid->placed(substep.to), touch.point(), guess, particles.position), guess);
     // Where the solid or the node leaves, faster than gravity could bring them together again, nothing holds;
     // what lies on a body is held all the same, as springs may bring it back, and is let go if it pulls.
     const double reach = solid->yields() ? inner_radius(solid->shape) : touching_distance(h);
@@ -110,6 +111,19 @@ std::optional<Surface> ContactConstraints<Real>::plane_for(const Solid& solid, c
 }
 
 template <class Real>
+Surface ContactConstraints<Real>::as_before(const Touch& touch, const Solid& solid, const Surface& near,
+                                            const Vec3& end) const {
+  if (!solid.yields_turning() || -near.distance <= touching_distance(substep_.seconds)) return near;
+  const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
+  if (same == last_.end() || same->touch != touch || same->released) return near;
+  const PlacedShape shape = solid.placed(substep_.to);
+  const Vec3 normal = shape.rotation * same->face;
+  if (near.normal.dot(normal) >= kTurned) return near;
+  const double out = shape.way_out(end, normal);
+  return out <= inner_radius(solid.shape) ? Surface{-out, normal} : near;
+}
+
+template <class Real>
 auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                                        const Surface& surface, const Vec3& place, const Vec3& way) const
     -> Constraint {
@@ -128,9 +142,16 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
                   0,
                   normal.dot(slip) - (surface.distance - gap),
                   move,
-                  inner_radius(solid.shape)};
+                  inner_radius(solid.shape),
+                  solid.placed(substep_.to).rotation.transpose() * normal};
   // What meets it anew is led out to where the spring begins to bear, at no speed.
   made.led_out = std::max(0.0, (held ? 0 : bears_from) - gap);
+  if (solid.yields()) {
+    // A solid that yields is led out of the cloth as well, by the same spring, and keeps the speed.
+    const double slowly = std::min(made.led_out, depth());
+    made.distance -= made.led_out - slowly;
+    made.led_out = slowly;
+  }
   made.coefficient = solid.friction;
   const double pressed_in = solid.yields() ? 0 : std::max(0.0, made.distance - normal.dot(way));
   made.friction = SurfaceFriction(across(slip, normal), solid.friction * pressed_in);
@@ -268,19 +289,6 @@ bool ContactConstraints<Real>::flies_through(const Solid& solid, const Vec3& pla
   const PlacedShape shape = solid.placed(substep_.to);
   const Vec3 from = place + solid.move_of(place, substep_.from, substep_.to);
   return !shape.contains(from) && shape.first_hit(from, to).has_value();
-}
-
-template <class Real>
-std::optional<int> ContactConstraints<Real>::body_of(const Solid& solid, const std::vector<Solid>& solids,
-                                                     AttachedBodies<Real>& bodies) {
-  if (!solid.yields()) return {};
-  const auto index = static_cast<std::size_t>(&solid - solids.data());
-  const auto known = std::find(yielding_.begin(), yielding_.end(), index);
-  if (known != yielding_.end()) return static_cast<int>(known - yielding_.begin());
-  yielding_.push_back(index);
-  const double h = substep_.seconds, inertia = 1 / (solid.inverse_mass * h * h);
-  if (!solid.yields_turning()) return bodies.add(inertia);
-  return bodies.add(inertia, solid.inverse_inertia.inverse() / (h * h));
 }
 
 template class ContactConstraints<float>;

@@ -145,7 +145,7 @@ class ContactConstraints {
   /// onto solids, in their order.
   const std::vector<Touch>& finish(kernels::Components<const Real> move, const AttachedBodies<Real>& bodies,
                                    std::vector<Solid>& solids);
-  /// Takes from the velocities what leading nodes out of solids gave them: that is no motion.
+  /// Takes from the velocities what leading nodes out of solids that stand firm gave them: that is no motion.
   void keep_velocities(kernels::Components<Real> velocity) const;
 
   /// Calls visit(node index) for every constrained node, and those of every constrained point, whose motion
@@ -182,6 +182,7 @@ class ContactConstraints {
     double curves;    ///< of the point's way along the normal, what the surface itself curves by, m
     Vec3 solid_move;  ///< in the substep if nothing bends its way, m
     double width;     ///< of the solid, its inner radius, m
+    Vec3 face;        ///< the normal along the solid's own axes
     double stiffness = 0, most = 0;  ///< as it is or last was, and may become, N/m
     double force = 0;                ///< along the normal, N
     /// In the last step and the one before; negative where it did not touch yet, N.
@@ -194,8 +195,8 @@ class ContactConstraints {
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(touch, point, body, arm, normal, distance, led_out, curves, solid_move, width, stiffness, most,
-              force, last_force, force_before, released, pinched, solved, coefficient, friction);
+      archive(touch, point, body, arm, normal, distance, led_out, curves, solid_move, width, face, stiffness,
+              most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
     }
     /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
     double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }
@@ -224,6 +225,10 @@ class ContactConstraints {
   /// the end. None if that passes the solid by.
   std::optional<Surface> plane_for(const Solid& solid, const Surface& near, const Vec3& place,
                                    const Vec3& end) const;
+  /// `near`, or for what lay on a body in the last substep and is now inside, next to another face: that
+  /// which it lay on. Another body has moved this one since; out of the other face it would be drawn around
+  /// an edge.
+  Surface as_before(const Touch& touch, const Solid& solid, const Surface& near, const Vec3& end) const;
   /// `place` is the point's when the substep begins, `way` its move that `surface` was looked up for.
   Constraint held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                      const Surface& surface, const Vec3& place, const Vec3& way) const;

@@ -236,7 +236,7 @@ std::vector<Solid> ContactConstraints<Real>::bent(std::vector<Solid> solids,
 template <class Real>
 void ContactConstraints<Real>::keep_velocities(kernels::Components<Real> velocity) const {
   for (const Constraint& c : constraints_) {
-    if (!c.released) c.point.shift(velocity, -c.led_out / substep_.seconds * c.normal);
+    if (!c.released && !c.body) c.point.shift(velocity, -c.led_out / substep_.seconds * c.normal);
   }
 }
 

@@ -1,10 +1,24 @@
 /// ContactConstraints and the solids around: those that hang on the cloth, and what stands firm.
+#include <Eigen/LU>
 #include <algorithm>
 #include <optional>
 
 #include "cloth/contact/constraints/contact_constraints.h"
 
 namespace weft {
+
+template <class Real>
+std::optional<int> ContactConstraints<Real>::body_of(const Solid& solid, const std::vector<Solid>& solids,
+                                                     AttachedBodies<Real>& bodies) {
+  if (!solid.yields()) return {};
+  const auto index = static_cast<std::size_t>(&solid - solids.data());
+  const auto known = std::find(yielding_.begin(), yielding_.end(), index);
+  if (known != yielding_.end()) return static_cast<int>(known - yielding_.begin());
+  yielding_.push_back(index);
+  const double h = substep_.seconds, inertia = 1 / (solid.inverse_mass * h * h);
+  if (!solid.yields_turning()) return bodies.add(inertia);
+  return bodies.add(inertia, solid.inverse_inertia.inverse() / (h * h));
+}
 
 template <class Real>
 void ContactConstraints<Real>::hang(const std::vector<BodySpring>& springs, const Particles<Real>& particles,
@@ -51,8 +65,12 @@ double ContactConstraints<Real>::hung_share(double mass, const std::vector<Solid
   return mass / sum;
 }
 
+template std::optional<int> ContactConstraints<float>::body_of(const Solid&, const std::vector<Solid>&,
+                                                               AttachedBodies<float>&);
 template void ContactConstraints<float>::hang(const std::vector<BodySpring>&, const Particles<float>&,
                                               const std::vector<Solid>&, AttachedBodies<float>&);
+template std::optional<int> ContactConstraints<double>::body_of(const Solid&, const std::vector<Solid>&,
+                                                                AttachedBodies<double>&);
 template void ContactConstraints<double>::hang(const std::vector<BodySpring>&, const Particles<double>&,
                                                const std::vector<Solid>&, AttachedBodies<double>&);
 template double ContactConstraints<float>::hung_share(double, const std::vector<Solid>&) const;

@@ -10,8 +10,8 @@
 namespace weft {
 namespace {
 
-/// Of the smallest round hole that a solid fits through: the widest that is left between points. A ball over
-/// the middle of such a hole sinks in by 0.29 of its radius.
+/// Of the hole that lets a solid through: the widest that is left between points. A ball over the middle of
+/// such a hole sinks in by 0.29 of its radius.
 constexpr double kWidestHole = 0.7;
 /// Of a solid's inner radius: from what is deeper the nearest way out may lead along the sheet.
 constexpr double kDeep = 0.25;
@@ -85,6 +85,11 @@ void for_each_point(std::size_t node, int parts, const Whole& whole, Visit visit
   }
 }
 
+/// Radius, m, of the widest hole between points that a solid does not come through. What stands or goes its
+/// own way has to fit through a round hole. A body that cloth pushes turns as it is pushed: what is thin
+/// comes edge-on, between two rows of points, what is sharp tip first.
+double hole_for(const Solid& solid) { return solid.yields() ? inner_radius(solid.shape) : bore(solid.shape); }
+
 }  // namespace
 
 template <class Real>
@@ -97,7 +102,7 @@ std::vector<NearPoint> points_between(const Particles<Real>& particles, const Ve
   for (const TileSolidPair& pair : pairs) {
     const auto index = static_cast<std::size_t>(pair.solid);
     const Solid& solid = solids[index];
-    const double widest = kWidestHole * bore(solid.shape);
+    const double widest = kWidestHole * hole_for(solid);
     if (!std::isfinite(widest)) continue;
     const PlacedShape shape = solid.placed(sweep.to);
     const double reach = way_of(solid, sweep) + sweep.reach;

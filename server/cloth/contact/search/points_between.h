@@ -23,8 +23,9 @@ enum class PointHold {
 };
 
 /// Where cloth meets solids that would slip between its nodes: points of the cells' sides and insides, so
-/// close that a hole between them is smaller than the solid (bore). A solid that is larger than the cells has
-/// none, and costs nothing but this to be found.
+/// close that a hole between them is smaller than the solid (bore; of a body that cloth pushes its inner
+/// radius, as it turns). A solid that is larger than the cells has none, and costs nothing but this to be
+/// found.
 ///
 /// The points that are near a solid on its way through `sweep`, in which nodes go `sweep.reach`, m, at most
 /// from these places; of cells that are not torn, or of links of such; `torn` is nullptr while the cloth is

@@ -42,21 +42,22 @@ Solid box_of(double mass, const Vec3& velocity, const Vec3& spin) {
 TEST(YieldingBox, AHitAsideLeavesTheTwoWithOneVelocityThere) {
   // J = u / (1/m + 1/M + (r x n) . I^-1 (r x n)) (Baraff 2001, Eq. 8-18 with no bounce), m = 1 kg, u = 6 m/s.
   for (const double mass : kBoxMasses) {
-    Particles<double> sheet = test::flat_sheet<double>(9, 9, {2, 2});
-    const Vec3 place = sheet.position_at(4, 5);  // 0.25 m aside
-    each_node(sheet.grid(), [&](int r, int c) { sheet.inverse_mass.at(r, c) = r == 4 && c == 5 ? 1 : 0; });
-    set(sheet.velocity, 4, 5, {0, 0, -4});
+    // Cells so small that the box meets nodes alone.
+    Particles<double> sheet = test::flat_sheet<double>(17, 17, {2, 2});
+    const Vec3 place = sheet.position_at(8, 10);  // 0.25 m aside
+    each_node(sheet.grid(), [&](int r, int c) { sheet.inverse_mass.at(r, c) = r == 8 && c == 10 ? 1 : 0; });
+    set(sheet.velocity, 8, 10, {0, 0, -4});
     const Solid before = box_of(mass, {0, 0, 2}, {0, 0, 0});
     std::vector<Solid> boxes{before};
     Contact<double> contact(sheet.grid());
     ASSERT_EQ(contact.resolve(sheet, boxes, {}), 1);
     const Vec3 arm = place - before.position, lever = arm.cross(Vec3::UnitZ());
     const double impulse = 6 / (1 + 1 / mass + lever.dot(before.inverse_inertia * lever));
-    EXPECT_NEAR(sheet.velocity_at(4, 5).z(), -4 + impulse, 1e-13) << mass;
+    EXPECT_NEAR(sheet.velocity_at(8, 10).z(), -4 + impulse, 1e-13) << mass;
     EXPECT_NEAR(boxes[0].velocity.z(), 2 - impulse / mass, 1e-13) << mass;
     EXPECT_LT((boxes[0].spin + impulse * (before.inverse_inertia * lever)).norm(), 1e-13 * (1 + 1 / mass));
     const Vec3 there = boxes[0].velocity + boxes[0].spin.cross(arm);
-    EXPECT_NEAR(there.z(), sheet.velocity_at(4, 5).z(), 1e-12) << mass;
+    EXPECT_NEAR(there.z(), sheet.velocity_at(8, 10).z(), 1e-12) << mass;
   }
 }
 

@@ -57,8 +57,22 @@ TEST(PointsBetween, AreAsCloseAsTheSolidIsSmall) {
   EXPECT_TRUE(near(particles, solid(HalfSpace{}, kMiddle)).empty());
 }
 
-// What a hole has to be smaller than is the second smallest of a solid's sides: a board does not fit through
-// by being thin.
+// A body that cloth pushes turns: a board comes edge-on, between two rows of points, whose distance then may
+// be its inner radius at most.
+TEST(PointsBetween, AreAsCloseAsABodyIsThin) {
+  const Particles<float> particles = flat();
+  const auto body = [](const Shape& shape) {
+    Solid made = solid(shape, kMiddle);
+    made.inverse_mass = 1;
+    return made;
+  };
+  EXPECT_TRUE(near(particles, body(Box{{0.3, 0.3, 0.102}})).empty());
+  EXPECT_EQ(parts(near(particles, body(Box{{0.3, 0.3, 0.1}}))), 2);
+  EXPECT_EQ(parts(near(particles, body(Box{{0.3, 0.3, 0.02}}))), 8);
+}
+
+// What a hole has to be smaller than is the second smallest of the sides of a solid that stands firm: a board
+// does not fit through by being thin.
 TEST(PointsBetween, KnowWhatFitsThrough) {
   const Particles<float> particles = flat();
   EXPECT_TRUE(near(particles, solid(Box{{0.3, 0.3, 0.001}}, kMiddle)).empty());

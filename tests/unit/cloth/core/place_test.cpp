@@ -148,8 +148,19 @@ TEST(Place, MovingPinsCarryIt) {
   EXPECT_LT(stray(scene, 70), kTolerance);
 }
 
+/// Solves so finely that one iteration more, after a rounding that fell the other way, moves nothing.
+IntegratorDescription solving_finely(IntegratorDescription integrator) {
+  std::visit(
+      [](auto& each) {
+        if constexpr (requires { each.tolerance; }) each.tolerance = 1e-6;
+      },
+      integrator);
+  return integrator;
+}
+
 TEST(Place, BallsAndBodiesMeetIt) {
-  for (const IntegratorDescription& integrator : default_integrators()) {
+  for (const IntegratorDescription& each : default_integrators()) {
+    const IntegratorDescription integrator = solving_finely(each);
     const auto scene = [&](const Vec3& at) {
       Scene made = lying(at, {{0, 1, 0, 0}, {0, 1, 1, 1}});
       made.integrator = integrator;

@@ -122,4 +122,27 @@ TEST(StepsInParts, AreThoseOfBodiesOnCloth) {
   EXPECT_EQ(substeps(thrown(SymplecticEulerDescription{.substeps = 64}, 2.8, 0), 60), 64);
 }
 
+// A box of 0.2 m that lies on a held bed and spins about its upright axis: its corners go past the cloth at
+// 0.14 m times the spin, of which a quarter of its 0.1 m makes one part.
+TEST(StepsInParts, AreThoseOfBodiesThatSpinOnCloth) {
+  const auto spinning = [](double spin) {
+    SimulationDescription scene;
+    ClothDescription cloth;
+    cloth.initial_level = cloth.max_level = 4;
+    cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+    cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
+    scene.cloths = {cloth};
+    scene.integrator = BackwardEulerDescription{};
+    ObstacleDescription box;
+    box.shape = BoxDescription{{0.2, 0.2, 0.2}};
+    box.position = {0, 0.099, 0};
+    box.body = BodyDescription{.velocity = {0, -0.5, 0}, .spin = {0, spin, 0}};
+    scene.obstacles = {box};
+    return scene;
+  };
+  EXPECT_EQ(substeps(spinning(0), 60), 1);
+  EXPECT_GT(substeps(spinning(20), 60), 1);
+  EXPECT_EQ(substeps(spinning(200), 60), 4);
+}
+
 }  // namespace weft::test
