@@ -8,6 +8,8 @@ template <class Real>
 Eigen::Matrix<double, 6, 6> RigidDamping<Real>::matrix(const Particles<Real>& particles,
                                                        const Forces<Real>& forces, const Vec3& centre,
                                                        const Effect<Real>* other) {
+  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  if (!(forces.max_damping_rates(particles, other).sum() > 0)) return sum;
   const Grid& grid = particles.grid();
   if (scalar_.grid() != grid) {
     scalar_ = Field<Real>(grid);
@@ -22,7 +24,6 @@ Eigen::Matrix<double, 6, 6> RigidDamping<Real>::matrix(const Particles<Real>& pa
     effect->add_damping(particles, forces.context,
                         {scalar_.row(0), {xx.row(0), xy.row(0), xz.row(0), yy.row(0), yz.row(0), zz.row(0)}});
   }
-  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.cols; ++c) {
       const auto entry = [&](const Field<Real>& field) { return double(field.at(r, c)); };
@@ -31,15 +32,15 @@ Eigen::Matrix<double, 6, 6> RigidDamping<Real>::matrix(const Particles<Real>& pa
           entry(zz);
       damping.diagonal().array() += entry(scalar_);
       const Vec3 arm = particles.position_at(r, c) - centre;
-      Eigen::Matrix3d lever;  // arm x
-      lever << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-      const Eigen::Matrix3d turned = lever * damping;
+      Eigen::Matrix3d turned, levered;  // arm x damping, and that x arm
+      for (int k = 0; k < 3; ++k) turned.col(k) = arm.cross(Vec3(damping.col(k)));
+      for (int k = 0; k < 3; ++k) levered.row(k) = arm.cross(Vec3(turned.row(k))).transpose();
       sum.template topLeftCorner<3, 3>() += damping;
       sum.template bottomLeftCorner<3, 3>() += turned;
-      sum.template topRightCorner<3, 3>() += turned.transpose();
-      sum.template bottomRightCorner<3, 3>() -= turned * lever;
+      sum.template bottomRightCorner<3, 3>() += levered;
     }
   }
+  sum.template topRightCorner<3, 3>() = sum.template bottomLeftCorner<3, 3>().transpose();
   return sum;
 }
 
