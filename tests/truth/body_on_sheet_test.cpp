@@ -8,6 +8,7 @@
 #include "cloth/shapes/mass_properties.h"
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
+#include "methods.h"
 #include "scene/convex_hull.h"
 
 namespace weft::test {
@@ -94,12 +95,12 @@ SimulationDescription dropped(Draw& draw, const Drawn& body, const IntegratorDes
   return scene;
 }
 
-class BodyOnSheet : public ::testing::TestWithParam<IntegratorDescription> {};
+class BodyOnSheet : public ImplicitMethod {};
 
 TEST_P(BodyOnSheet, StaysOnIt) {
   Draw draw;
   for (int body = 0; body < 16; ++body) {
-    const SimulationDescription scene = dropped(draw, body % 2 == 0 ? draw.box() : draw.hull(), GetParam());
+    const SimulationDescription scene = dropped(draw, body % 2 == 0 ? draw.box() : draw.hull(), integrator());
     Simulation<float> simulation(scene);
     const auto height = [&] { return simulation.colliders().obstacles()[0].pose.position.y(); };
     double highest = height();
@@ -114,12 +115,7 @@ TEST_P(BodyOnSheet, StaysOnIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Implicit, BodyOnSheet,
-                         ::testing::Values(IntegratorDescription(Bdf2Description{}),
-                                           IntegratorDescription(BackwardEulerDescription{})),
-                         [](const auto& test) {
-                           return std::visit([](const auto& d) { return std::string(d.kName); }, test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Implicit, BodyOnSheet, ::testing::ValuesIn(kImplicitMethods), name_of_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -9,6 +9,7 @@
 #include "cloth/forces/soft_pins.h"
 #include "cloth/world/simulation.h"
 #include "fixtures.h"
+#include "methods.h"
 
 namespace weft::test {
 namespace {
@@ -48,14 +49,14 @@ Hung hung(const IntegratorDescription& integrator, std::mt19937& random) {
   return hung;
 }
 
-class HungBody : public ::testing::TestWithParam<IntegratorDescription> {};
+class HungBody : public ImplicitMethod {};
 
 // All of the bobbing m g s / 2 as a swing of a pendulum of 1 m is sqrt(s) m to either side, with s in m: what
 // may be is a tenth of that, and a millimetre.
 TEST_P(HungBody, BobsAndComesToRest) {
   std::mt19937 random(1);
   for (int weight = 0; weight < 24; ++weight) {
-    const Hung drawn = hung(GetParam(), random);
+    const Hung drawn = hung(integrator(), random);
     Simulation<float> simulation(drawn.scene);
     double aside = 0;
     for (double time = 0; time < 8; time += drawn.scene.time_step) {
@@ -66,12 +67,7 @@ TEST_P(HungBody, BobsAndComesToRest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Implicit, HungBody,
-                         ::testing::Values(IntegratorDescription(Bdf2Description{}),
-                                           IntegratorDescription(BackwardEulerDescription{})),
-                         [](const auto& test) {
-                           return std::visit([](const auto& d) { return std::string(d.kName); }, test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Implicit, HungBody, ::testing::ValuesIn(kImplicitMethods), name_of_case);
 
 }  // namespace
 }  // namespace weft::test

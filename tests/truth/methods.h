@@ -95,6 +95,16 @@ inline Material strands(double structural, double density = 0.1) {
   return material;
 }
 
+/// Implicit methods as a scene has them that asks for nothing else.
+class ImplicitMethod : public ::testing::TestWithParam<Method> {
+ protected:
+  static IntegratorDescription integrator() {
+    if (GetParam() == Method::bdf2) return Bdf2Description{};
+    return BackwardEulerDescription{};
+  }
+};
+inline constexpr std::array kImplicitMethods{Method::bdf2, Method::backward_euler};
+
 class EveryMethod : public ::testing::TestWithParam<Method> {};
 
 inline std::string name_of_case(const ::testing::TestParamInfo<Method>& tested) {

@@ -1,7 +1,5 @@
 #include "cloth/integrators/rigid_damping.h"
 
-#include <algorithm>
-
 namespace weft {
 
 template <class Real>

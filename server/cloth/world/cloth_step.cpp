@@ -238,6 +238,7 @@ void Cloth<Real>::make_way(const std::vector<Solid>& solids) {
   const std::vector<Solid> now = seen(solids);
   const auto position = kernels::components(particles_.position);
   const VectorField<Real> start = particles_.position;
+  bool moved = false;
   for (const Touch& touch : contact_->touches()) {
     const auto has_id = [&](const Solid& solid) { return solid.id == touch.collider; };
     const auto was = std::find_if(solids_.begin(), solids_.end(), has_id);
@@ -251,8 +252,11 @@ void Cloth<Real>::make_way(const std::vector<Solid>& solids) {
         after.centre + after.rotation * (before.rotation.transpose() * (from - before.centre)) - from;
     const Vec3 gone = point.of(kernels::components(std::as_const(particles_.position))) - from;
     const double out = normal.dot(way - gone);
-    if (out > 0) point.shift(position, out * normal);
+    if (!(out > 0)) continue;
+    point.shift(position, out * normal);
+    moved = true;
   }
+  if (moved) guard_.amend(particles_);
 }
 
 template bool Cloth<float>::unsettled(const std::vector<Solid>&);

@@ -22,6 +22,18 @@ int substeps(SimulationDescription scene, int hz) {
   return simulation.last_advance(0).substeps;
 }
 
+/// A sheet that lies in the ground's plane, held all around.
+SimulationDescription held_bed(const IntegratorDescription& integrator) {
+  SimulationDescription scene;
+  ClothDescription cloth;
+  cloth.initial_level = cloth.max_level = 4;
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
+  scene.cloths = {cloth};
+  scene.integrator = integrator;
+  return scene;
+}
+
 }  // namespace
 
 // At most 1/30 s by a single cloth's implicit steps, 1/60 s by those of several and by a single one's
@@ -97,13 +109,7 @@ TEST(StepsInParts, AreThoseOfPinsThatGoFarPastWhatIsSolid) {
 // that flies, may hit it.
 TEST(StepsInParts, AreThoseOfBodiesOnCloth) {
   const auto thrown = [](const IntegratorDescription& integrator, double speed, double above) {
-    SimulationDescription scene;
-    ClothDescription cloth;
-    cloth.initial_level = cloth.max_level = 4;
-    cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
-    cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
-    scene.cloths = {cloth};
-    scene.integrator = integrator;
+    SimulationDescription scene = held_bed(integrator);
     const Vec3 place(-0.3, 0.099, 0);
     if (above == 0) {
       scene.balls = {flying_ball(place, 0.1, {speed, -0.5, 0})};
@@ -126,13 +132,7 @@ TEST(StepsInParts, AreThoseOfBodiesOnCloth) {
 // 0.14 m times the spin, of which a quarter of its 0.1 m makes one part.
 TEST(StepsInParts, AreThoseOfBodiesThatSpinOnCloth) {
   const auto spinning = [](double spin) {
-    SimulationDescription scene;
-    ClothDescription cloth;
-    cloth.initial_level = cloth.max_level = 4;
-    cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
-    cloth.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
-    scene.cloths = {cloth};
-    scene.integrator = BackwardEulerDescription{};
+    SimulationDescription scene = held_bed(BackwardEulerDescription{});
     ObstacleDescription box;
     box.shape = BoxDescription{{0.2, 0.2, 0.2}};
     box.position = {0, 0.099, 0};
