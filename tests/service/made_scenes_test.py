@@ -155,7 +155,7 @@ class MadeScenes(unittest.IsolatedAsyncioTestCase):
 
     async def test_others_are_answered_while_a_scene_is_made(self):
         server = self.start("--made-work", 1e9, "--made-nodes", 10**7)
-        heavy = self.changed(integrator={"type": "xpbd", "substeps": 2000 if SANITIZED else 10000})  # making it takes a second or more
+        heavy = self.changed(integrator={"type": "xpbd", "substeps": 500 if SANITIZED else 10000})  # making it takes a second or more
         heavy["cloths"][0]["levels"] = {"min": 7, "max": 7}
         async with await weft.connect(server.url("still"), timeout=GENEROUS) as client:
             making = asyncio.create_task(asyncio.to_thread(self.ask, server, "PUT", "heavy", heavy))
