@@ -114,6 +114,8 @@ struct BodyCollision::Impl {
 BodyCollision::BodyCollision() : impl_(std::make_unique<Impl>()) {}
 BodyCollision::~BodyCollision() = default;
 
+const std::vector<BodyContact>& BodyCollision::found() const { return impl_->contacts; }
+
 const std::vector<BodyContact>& BodyCollision::find(const std::vector<Solid>& solids, double dt,
                                                     const std::vector<PinnedNode>& pins) {
   std::vector<BodyContact>& contacts = impl_->contacts;

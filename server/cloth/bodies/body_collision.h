@@ -33,6 +33,8 @@ class BodyCollision {
   /// until the next call.
   const std::vector<BodyContact>& find(const std::vector<Solid>& solids, double dt,
                                        const std::vector<PinnedNode>& pins = {});
+  /// What the last call found.
+  const std::vector<BodyContact>& found() const;
 
  private:
   struct Impl;

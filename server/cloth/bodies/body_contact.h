@@ -12,6 +12,7 @@ struct BodyContact {
   double gap = 0;        ///< along the normal when the step begins, m; negative: they overlap by it
   double friction = 0;   ///< Coulomb's coefficient of the two
   bool firm = false;     ///< one of them never moves: this is kept where not all can be
+  double borne = 0;      ///< what has pushed them apart in the step before: friction has it, too, N s
 };
 
 }  // namespace weft

@@ -68,7 +68,7 @@ double stop_approach(Row& row, double dt) {
 double rub(Row& row) {
   const BodyContact& contact = *row.contact;
   const Vec3 velocity = row.velocity(), slip = velocity - velocity.dot(contact.normal) * contact.normal;
-  const double speed = slip.norm(), most = contact.friction * row.impulse;
+  const double speed = slip.norm(), most = contact.friction * (contact.borne + row.impulse);
   if (speed == 0 && row.friction.squaredNorm() <= most * most) return 0;
   const Vec3 direction = speed > 0 ? Vec3(slip / speed) : row.friction.normalized();
   const double inverse_mass = row.inverse_mass_along(direction);

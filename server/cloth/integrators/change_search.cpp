@@ -25,6 +25,7 @@ template <class Real>
 ChangeReport ChangeSearch<Real>::take_whole(double decrease) {
   std::vector<OneSidedSpring> springs;
   if (!contacts_.empty()) contacts_.append_springs(nodes_.move, nodes_.change, system_.bodies(), springs);
+  system_.bodies().append_springs(springs);
   if (forces_.layers != nullptr) forces_.layers->append_springs(nodes_.move, nodes_.change, springs);
   double share = springs.empty() ? 1 : best_share(springs, decrease);
   if (share < 1) scale(share);

@@ -52,6 +52,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   begin_step(particles, forces, h);
   state_->sound = true;
   StepFormula<Real>& formula = memory_->formula;
+  body_energy_.begin(particles, forces, solids);
   memory_->ledger.begin_step(particles, forces, formula.lead() != nullptr ? h / 2 : 0);
   ContactConstraints<Real>& contacts = memory_->contacts;
   const Freedom unpushed = freedom_of(particles);
@@ -78,6 +79,8 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       contacts.hang(springs, particles, solids, state_->system.bodies());
       hung = springs.size() == forces.soft_pins->count();
     }
+    if (contact != nullptr && contact->body_touches() != nullptr)
+      contacts.join(*contact->body_touches(), solids, state_->system.bodies());
     if (forces.layers != nullptr) forces.layers->begin(particles, part, state_->motion.near_rest());
     begin_substep(particles, forces, h);
     if (contacts.hangs() && !hung) {
@@ -86,10 +89,12 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
       memory_->momentum.begin_substep(particles, forces, solids, hung);
     }
     report.linear_iterations += find_move(particles, forces, h);
+    bool held_up = false;  // what the cloth touches is pushed by what stands firm, which takes momentum
     const auto moved = Clock::now();
     report.forces_seconds += seconds(moved - begin);
     if (forces.layers != nullptr) forces.layers->finish(state_->move);
     if (contact != nullptr) {
+      held_up = contacts.joins() && contacts.add_impulses(state_->system.bodies(), *contact->body_touches());
       const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
       contacts.keep_velocities(kernels::components(particles.velocity));
       contact->let_slide_off(contacts.not_held());
@@ -104,10 +109,10 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
                                {formula.start(), formula.start_velocity(),
                                 forces.sheet->damped() ? &state_->way : nullptr, formula.lead(), h});
     Freedom now = unpushed;
-    bool rubs = false;
+    bool rubs = held_up;
     if (contact != nullptr && !unpushed.is_none()) {
       const auto firm = contacts.firm(contact->touches(), particles, solids);
-      rubs = firm.rubs;
+      rubs = rubs || firm.rubs;
       now = rubs ? Freedom::none() : freedom_beside(firm.pushes, particles);
     }
     const double kept = memory_->momentum.end_substep(particles, forces, solids, formula.start(), contact,
@@ -122,7 +127,7 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double scale = memory_->ledger.end_step(particles, forces, dt, touched, freedom, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
   if (scale != 1) formula.scale(particles, scale, freedom);
-  report.sound = state_->sound;
+  report.sound = state_->sound && !(touched && body_energy_.exceeded(particles, forces, solids));
   return report;
 }
 

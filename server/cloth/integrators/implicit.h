@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cloth/contact/constraints/contact_constraints.h"
+#include "cloth/integrators/body_energy.h"
 #include "cloth/integrators/energy_ledger.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/momentum_keeper.h"
@@ -156,6 +157,7 @@ class Implicit final : public Integrator<Real> {
     const std::vector<Solid>* solids = nullptr;
     Substep substep;
   };
+  BodyEnergy<Real> body_energy_;
   Surroundings surroundings_;  ///< in the substep in hand
 };
 

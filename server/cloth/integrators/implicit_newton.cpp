@@ -116,6 +116,7 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
       begun = misjudged.begun;
       pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
     }
+    pulling += s.system.bodies().misjudged();
     if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
     error = std::max(error, pulling);
     const double motion = s.kept_stiffness * s.motion.energy();
@@ -160,6 +161,7 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
                                      contact->passed(particles, memory_->formula.start(), now, part),
                                      particles, now, s.move, bodies, springs.node_stiffness(), missed))
     return false;
+  if (contact->body_touches() != nullptr) memory_->contacts.join(*contact->body_touches(), *solids, bodies);
   memory_->contacts.for_each_broken([&](std::size_t node) { memory_->formula.break_motion(node); });
   memory_->formula.prepare();
   return true;

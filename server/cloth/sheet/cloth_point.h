@@ -36,31 +36,7 @@ template <class Real>
 class ClothPoint {
  public:
   ClothPoint() = default;
-  ClothPoint(const PointId& id, const Particles<Real>& particles) {
-    const Real* inverse_mass = particles.inverse_mass.row(0);
-    node_[0] = id.node;
-    if (!id.between_nodes()) {
-      moves_[0] = 1;
-      mass_ = double(particles.mass.row(0)[id.node]);
-      return;
-    }
-    const auto stride = static_cast<std::size_t>(particles.grid().stride);
-    const double u = id.u(), v = id.v();
-    count_ = 0;
-    add_node(id.node, (1 - u) * (1 - v));
-    if (u > 0) add_node(id.node + 1, u * (1 - v));
-    if (v > 0) add_node(id.node + stride, (1 - u) * v);
-    if (u > 0 && v > 0) add_node(id.node + stride + 1, u * v);
-    double mobility = 0;  // 1/kg
-    for (std::size_t k = 0; k < count_; ++k) {
-      const auto inverse = double(inverse_mass[node_[k]]);
-      moves_[k] = inverse > 0 ? weight_[k] : 0;
-      gain_[k] = moves_[k] * inverse;
-      mobility += moves_[k] * gain_[k];
-    }
-    for (std::size_t k = 0; k < count_ && mobility > 0; ++k) gain_[k] /= mobility;
-    mass_ = mobility > 0 ? 1 / mobility : 0;
-  }
+  ClothPoint(const PointId& id, const Particles<Real>& particles);
 
   /// Of a field of places or velocities that pinned nodes have as well.
   Vec3 of(const kernels::Components<const Real>& field) const {
@@ -131,5 +107,8 @@ class ClothPoint {
   std::array<double, 4> weight_{1, 0, 0, 0}, moves_{}, gain_{1, 0, 0, 0};
   double mass_ = 0;  ///< kg
 };
+
+extern template class ClothPoint<float>;
+extern template class ClothPoint<double>;
 
 }  // namespace weft

@@ -156,10 +156,6 @@ class Cloth {
   /// with push_balls(). Several cloths may do it at the same time, each with its share of a ball that they
   /// all touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
-  /// After that: bodies that others have pushed elsewhere since, or that other bodies hit, push what lay on
-  /// them out of their way, along their normals; the cloth's velocities stay. Left inside it would lie deeper
-  /// from step to step, and come out of another side.
-  void make_way(const std::vector<Solid>& solids);
   /// Steps from now on may take at most so much work (interrupt.h); one that would is not made: the cloth
   /// stands still as if no way of stepping it helped. WorkLimit::kNone unless set.
   void set_most_work(double most) { most_work_ = most; }
@@ -176,6 +172,10 @@ class Cloth {
   /// Adds the pinned nodes that solids which yield may meet in the step of `dt` from `time` on, s.
   void add_pins_near(const std::vector<Solid>& solids, double time, double dt,
                      std::vector<PinnedNode>& found);
+  /// Where the solids of the next advance touch one another: what of it the cloth's bodies touch is a part of
+  /// the advance of an implicit method, and is told the impulse.
+  void set_body_touches(const std::vector<BodyTouch>& touches) { body_touches_ = touches; }
+  const std::vector<BodyTouch>& body_touches() const { return body_touches_; }
   /// Touches the solid, or will within a step of `dt` seconds if all go on as they go.
   bool meets(const Solid& solid, double dt);
   /// Hands over what the last advance gave to the balls.
@@ -261,7 +261,8 @@ class Cloth {
   Sleep sleep_;
   double most_work_ = WorkLimit::kNone, work_ = 0;
   // As seen from the cloth's place:
-  std::vector<Solid> met_;     ///< as they were when the step began
+  std::vector<Solid> met_;  ///< as they were when the step began
+  std::vector<BodyTouch> body_touches_;
   std::vector<Solid> solids_;  ///< as the cloth moves them in the step
   bool disturbed_ = true;      ///< since the last step something has been changed that may give it energy
   int nodes_in_contact_ = 0;   ///< at the end of the last step that was made

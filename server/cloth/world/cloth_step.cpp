@@ -122,7 +122,10 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   all.drive = drive(all, dt);
   all.disturbed = std::exchange(disturbed_, false);
   all.rescued = guard_.rung() == Rung::backward_euler_4 || guard_.rung() == Rung::backward_euler_16;
-  return integrator_->advance(particles_, all, solids_.empty() ? nullptr : &contact(), solids_, time, dt);
+  if (solids_.empty()) return integrator_->advance(particles_, all, nullptr, solids_, time, dt);
+  contact().set_body_touches(&body_touches_);
+  for (BodyTouch& touch : body_touches_) touch.impulse = 0;
+  return integrator_->advance(particles_, all, &contact(), solids_, time, dt);
 }
 
 template <class Real>
@@ -232,33 +235,6 @@ void Cloth<Real>::push_balls(Colliders& colliders) const {
   colliders.push(met_, solids_);
 }
 
-template <class Real>
-void Cloth<Real>::make_way(const std::vector<Solid>& solids) {
-  if (!contact_ || asleep() || frozen()) return;
-  const std::vector<Solid> now = seen(solids);
-  const auto position = kernels::components(particles_.position);
-  const VectorField<Real> start = particles_.position;
-  bool moved = false;
-  for (const Touch& touch : contact_->touches()) {
-    const auto has_id = [&](const Solid& solid) { return solid.id == touch.collider; };
-    const auto was = std::find_if(solids_.begin(), solids_.end(), has_id);
-    const auto is = std::find_if(now.begin(), now.end(), has_id);
-    if (was == solids_.end() || is == now.end() || !was->yields()) continue;
-    const ClothPoint<Real> point(touch.point(), particles_);
-    const Vec3 from = point.of(kernels::components(start));
-    const PlacedShape before = was->placed(1), after = is->placed(1);
-    const Vec3 normal = before.surface(from).normal;
-    const Vec3 way =
-        after.centre + after.rotation * (before.rotation.transpose() * (from - before.centre)) - from;
-    const Vec3 gone = point.of(kernels::components(std::as_const(particles_.position))) - from;
-    const double out = normal.dot(way - gone);
-    if (!(out > 0)) continue;
-    point.shift(position, out * normal);
-    moved = true;
-  }
-  if (moved) guard_.amend(particles_);
-}
-
 template bool Cloth<float>::unsettled(const std::vector<Solid>&);
 template void Cloth<float>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Air&, double, double);
@@ -275,7 +251,6 @@ template void Cloth<float>::add_pins_near(const std::vector<Solid>&, double, dou
                                           std::vector<PinnedNode>&);
 template bool Cloth<float>::meets(const Solid&, double);
 template void Cloth<float>::push_balls(Colliders&) const;
-template void Cloth<float>::make_way(const std::vector<Solid>&);
 template bool Cloth<double>::unsettled(const std::vector<Solid>&);
 template void Cloth<double>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const Air&, double, double);
@@ -292,6 +267,5 @@ template void Cloth<double>::add_pins_near(const std::vector<Solid>&, double, do
                                            std::vector<PinnedNode>&);
 template bool Cloth<double>::meets(const Solid&, double);
 template void Cloth<double>::push_balls(Colliders&) const;
-template void Cloth<double>::make_way(const std::vector<Solid>&);
 
 }  // namespace weft

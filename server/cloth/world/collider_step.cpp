@@ -41,6 +41,22 @@ void advance(Obstacle& obstacle, double time, double dt, int steps) {
   }
 }
 
+/// The contacts of two solids bear in equal parts what these were pushed apart by.
+void bear(const std::vector<BodyTouch>& pushed, std::vector<BodyContact>& contacts) {
+  const auto same = [](const BodyContact& contact, const BodyTouch& touch) {
+    const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+    return (a == touch.a() && b == touch.b()) || (a == touch.b() && b == touch.a());
+  };
+  for (const BodyTouch& touch : pushed) {
+    if (!(touch.impulse > 0)) continue;
+    const auto count = std::count_if(contacts.begin(), contacts.end(),
+                                     [&](const BodyContact& contact) { return same(contact, touch); });
+    for (BodyContact& contact : contacts) {
+      if (same(contact, touch)) contact.borne += touch.impulse / static_cast<double>(count);
+    }
+  }
+}
+
 }  // namespace
 
 void Colliders::begin_step(double time, double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths,
@@ -142,18 +158,29 @@ bool Colliders::may_meet() const {
           std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.awake(); }));
 }
 
-void Colliders::meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins) {
+void Colliders::meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
+                     const std::vector<BodyTouch>& pushed) {
   constexpr int kMostRounds = 4;
   constexpr double kStray = 1e-4;  // m
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!(bend_ways(collision, dt, pins) > kStray)) return;
+    if (!(bend_ways(collision, dt, pins, round == 0 ? pushed : std::vector<BodyTouch>{}) > kStray)) return;
   }
 }
 
-double Colliders::bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins) {
+std::vector<BodyTouch> Colliders::touches(const BodyCollision& collision) const {
+  std::vector<BodyTouch> touches;
+  for (const BodyContact& contact : collision.found()) {
+    if (static_cast<std::size_t>(contact.b) < solids_.size()) touches.emplace_back(contact, solids_);
+  }
+  return touches;
+}
+
+double Colliders::bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
+                            const std::vector<BodyTouch>& pushed) {
   gather_solids();
-  const std::vector<BodyContact>& contacts = collision.find(solids_, dt, pins);
+  std::vector<BodyContact> contacts = collision.find(solids_, dt, pins);
   if (contacts.empty()) return 0;
+  bear(pushed, contacts);
   std::vector<MovingBody> bodies;
   for (const Solid& solid : solids_) {
     bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});

@@ -7,6 +7,7 @@
 
 #include "cloth/bodies/body_collision.h"
 #include "cloth/bodies/body_hand.h"
+#include "cloth/bodies/body_touch.h"
 #include "cloth/bodies/collider_description.h"
 #include "cloth/bodies/rigid_body.h"
 #include "cloth/shapes/solid.h"
@@ -143,7 +144,11 @@ class Colliders {
   /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
   /// Again where a hit turned one by so much that what was told of its points by the way that it began with
   /// is off by more than 0.1 mm. `pins` hold up what they meet.
-  void meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins = {});
+  /// Friction also has what a step has `pushed` them apart by.
+  void meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins = {},
+            const std::vector<BodyTouch>& pushed = {});
+  /// After meet, with the ways as it has left them: where two that touch, or may, would push one another.
+  std::vector<BodyTouch> touches(const BodyCollision& collision) const;
   /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
   /// last good place, at rest and without its path. Single precision, which frames have, still holds it.
   static constexpr double kFarthest = 1e30;
@@ -174,7 +179,8 @@ class Colliders {
   /// Decides what sleeps through the step of dt, s, in which all that no force moves goes as it does now.
   void let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths);
   /// meet(), once. Returns how far a body's points may be off, m: the second order of the turn it was given.
-  double bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins);
+  double bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
+                   const std::vector<BodyTouch>& pushed);
   /// What is next to the solid wakes.
   void wake_near(const Solid& solid);
   void stop_bad_balls();

@@ -140,7 +140,12 @@ class Simulation {
   /// All cloths, for islands of what sleeps together.
   std::vector<Sleeper> sleepers() const;
   /// Dynamic balls and bodies meet each other and what is in their way.
-  void meet_bodies(const std::vector<PinnedNode>& pins, double dt);
+  /// Friction between those that the cloths' steps have `pushed` apart has that, too.
+  void meet_bodies(const std::vector<PinnedNode>& pins, double dt, const std::vector<BodyTouch>& pushed = {});
+  /// After meet_bodies: tells cloths that solve for bodies where these touch one another.
+  void join_bodies();
+  /// Gathers what the cloths' steps have pushed them apart by.
+  void add_body_impulses();
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
   /// Calls work(i) for each cloth, side by side where that helps.
@@ -160,6 +165,7 @@ class Simulation {
   Colliders colliders_;
   std::vector<Cloth<Real>> cloths_;
   std::unique_ptr<ClothContact<Real>> layers_;     ///< if the scene lists cloth_contact
+  std::vector<BodyTouch> touches_;                 ///< in the step
   std::unique_ptr<BodyCollision> body_collision_;  ///< made when something may first meet
   std::vector<AdvanceReport> last_advance_;
   std::uint64_t steps_ = 0;

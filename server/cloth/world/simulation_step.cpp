@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cloth/core/clock.h"
+#include "cloth/core/disjoint_sets.h"
 #include "cloth/core/interrupt.h"
 #include "cloth/core/parallel.h"
 #include "cloth/world/simulation.h"
@@ -49,6 +50,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   std::vector<PinnedNode> pins;
   for (Cloth<Real>& cloth : cloths_) cloth.add_pins_near(colliders_.solids(), time, dt, pins);
   meet_bodies(pins, dt);
+  join_bodies();
   if (cloths_.size() > 1) share_balls(dt);
   settle_cloths(time);
   double layers = 0;  // s
@@ -65,10 +67,9 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   }
   profile_.contact += layers;
   for (const Cloth<Real>& cloth : cloths_) cloth.push_balls(colliders_);
-  if (colliders_.end_step()) {
-    meet_bodies(pins, dt);  // what the cloths press into others stays outside
-    for (Cloth<Real>& cloth : cloths_) cloth.make_way(colliders_.solids());
-  }
+  add_body_impulses();
+  // What the cloths press into others stays outside.
+  if (colliders_.end_step()) meet_bodies(pins, dt, touches_);
   colliders_.watch(dt);
   collect_guard_events();
 }
@@ -81,20 +82,50 @@ std::vector<Sleeper> Simulation<Real>::sleepers() const {
 }
 
 template <class Real>
-void Simulation<Real>::meet_bodies(const std::vector<PinnedNode>& pins, double dt) {
+void Simulation<Real>::meet_bodies(const std::vector<PinnedNode>& pins, double dt,
+                                   const std::vector<BodyTouch>& pushed) {
   if (pins.empty() && !colliders_.may_meet()) return;
   if (!body_collision_) body_collision_ = std::make_unique<BodyCollision>();
-  colliders_.meet(*body_collision_, dt, pins);
+  colliders_.meet(*body_collision_, dt, pins, pushed);
+}
+
+template <class Real>
+void Simulation<Real>::join_bodies() {
+  touches_.clear();
+  if (colliders_.may_meet() &&
+      std::any_of(cloths_.begin(), cloths_.end(), [](const Cloth<Real>& c) { return c.steps_implicitly(); }))
+    touches_ = colliders_.touches(*body_collision_);
+  for (Cloth<Real>& cloth : cloths_) cloth.set_body_touches(touches_);
+}
+
+template <class Real>
+void Simulation<Real>::add_body_impulses() {
+  for (const Cloth<Real>& cloth : cloths_) {
+    const std::vector<BodyTouch>& pushed = cloth.body_touches();
+    for (std::size_t i = 0; i < touches_.size(); ++i) touches_[i].impulse += pushed[i].impulse;
+  }
 }
 
 template <class Real>
 void Simulation<Real>::share_balls(double dt) {
   if (cloths_.size() < 2) return;  // there is nobody to share with
-  for (const Solid& solid : colliders_.solids()) {
-    if (!solid.yields()) continue;
-    const auto meet = std::count_if(cloths_.begin(), cloths_.end(),
-                                    [&](Cloth<Real>& cloth) { return cloth.meets(solid, dt); });
-    if (meet > 1) colliders_.share(solid.id, static_cast<int>(meet));
+  // Whoever meets one of those that touch one another meets them all.
+  const std::vector<Solid>& solids = colliders_.solids();
+  DisjointSets piles(solids.size());
+  for (const BodyTouch& touch : touches_) {
+    if (solids[touch.a()].yields() && solids[touch.b()].yields()) piles.join(touch.a(), touch.b());
+  }
+  std::vector<int> meet(solids.size());  // by what stands for the pile
+  for (Cloth<Real>& cloth : cloths_) {
+    std::vector<char> met(solids.size());
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      if (met[piles.of(i)] == 0 && solids[i].yields() && cloth.meets(solids[i], dt)) met[piles.of(i)] = 1;
+    }
+    for (std::size_t i = 0; i < solids.size(); ++i) meet[i] += met[i];
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const int cloths = meet[piles.of(i)];
+    if (cloths > 1 && solids[i].yields()) colliders_.share(solids[i].id, cloths);
   }
 }
 
@@ -155,7 +186,10 @@ void Simulation<Real>::collect_guard_events() {
 template void Simulation<float>::step();
 template void Simulation<float>::step_part(double, double, int);
 template std::vector<Sleeper> Simulation<float>::sleepers() const;
-template void Simulation<float>::meet_bodies(const std::vector<PinnedNode>&, double);
+template void Simulation<float>::meet_bodies(const std::vector<PinnedNode>&, double,
+                                             const std::vector<BodyTouch>&);
+template void Simulation<float>::join_bodies();
+template void Simulation<float>::add_body_impulses();
 template void Simulation<float>::share_balls(double);
 template void Simulation<float>::settle_cloths(double);
 template void Simulation<float>::advance_cloths(double, double);
@@ -163,7 +197,10 @@ template void Simulation<float>::collect_guard_events();
 template void Simulation<double>::step();
 template void Simulation<double>::step_part(double, double, int);
 template std::vector<Sleeper> Simulation<double>::sleepers() const;
-template void Simulation<double>::meet_bodies(const std::vector<PinnedNode>&, double);
+template void Simulation<double>::meet_bodies(const std::vector<PinnedNode>&, double,
+                                              const std::vector<BodyTouch>&);
+template void Simulation<double>::join_bodies();
+template void Simulation<double>::add_body_impulses();
 template void Simulation<double>::share_balls(double);
 template void Simulation<double>::settle_cloths(double);
 template void Simulation<double>::advance_cloths(double, double);

@@ -32,8 +32,8 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
   const kernels::Components<const Real> position = kernels::components(particles.position),
                                         velocity = kernels::components(particles.velocity);
   // `surface` as it will be beside the node if both go on as they go.
-  const auto holding = [&](const Touch& touch, const Solid& solid, const Surface& surface) {
-    const ClothPoint<Real> point(touch.point(), particles);
+  const auto holding = [&](const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
+                           const Surface& surface) {
     const Vec3 place = point.of(position), way = h * point.moved_by(velocity);
     Constraint made = held_by(touch, point, solid, surface, place, way);
     made.body = body_of(solid, solids, bodies);
@@ -62,7 +62,7 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     const double reach = solid->yields() ? inner_radius(solid->shape) : touching_distance(h);
     if (surface.distance <= reach) {
       if (const std::optional<Surface> plane = plane_for(*solid, surface, place, guess))
-        constraints_.push_back(holding(touch, *solid, *plane));
+        constraints_.push_back(holding(touch, point, *solid, *plane));
     } else if (lay_on(*solid, place) && !flies_through(*solid, place, guess)) {
       not_held_.push_back(touch);
     }
@@ -72,11 +72,12 @@ void ContactConstraints<Real>::begin(const std::vector<Touch>& touches, const st
     const auto end = constraints_.begin() + touching;
     const auto same = std::lower_bound(constraints_.begin(), end, arrival.touch, is_before);
     const Solid& solid = solids[arrival.solid];
+    const ClothPoint<Real> point(arrival.touch.point(), particles);
     if (same == end || same->touch != arrival.touch) {
-      constraints_.push_back(holding(arrival.touch, solid, arrival.surface));
+      constraints_.push_back(holding(arrival.touch, point, solid, arrival.surface));
     } else if (solid.yields_turning()) {
       // Past an edge the face that it goes into, not the one that it would be nearest to inside.
-      *same = holding(arrival.touch, solid, arrival.surface);
+      *same = holding(arrival.touch, point, solid, arrival.surface);
     }
   }
   if (!arrivals.empty()) {

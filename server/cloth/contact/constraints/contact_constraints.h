@@ -68,6 +68,13 @@ class ContactConstraints {
   void hang(const std::vector<BodySpring>& springs, const Particles<Real>& particles,
             const std::vector<Solid>& solids, AttachedBodies<Real>& bodies);
   bool hangs() const { return !hung_.empty(); }
+  /// After begin and hang, and again when more is held: what bodies of the system touch becomes a part of it,
+  /// and other bodies that they touch.
+  void join(const std::vector<BodyTouch>& touches, const std::vector<Solid>& solids,
+            AttachedBodies<Real>& bodies);
+  bool joins() const { return !joined_.empty(); }
+  /// After finish: adds to the touches' impulses, N s. True if what stands firm pushed a body.
+  bool add_impulses(const AttachedBodies<Real>& bodies, std::vector<BodyTouch>& touches) const;
   /// The cloth's share of its mass and that of the solids that hang on it together; 1 without any.
   double hung_share(double mass, const std::vector<Solid>& solids) const;
   /// Between Newton iterations: holds the nodes that are inside at `move`, or have passed a surface by it,
@@ -122,6 +129,7 @@ class ContactConstraints {
     not_held_.clear();
     yielding_.clear();
     hung_.clear();
+    joined_.clear();
   }
   bool empty() const { return constraints_.empty(); }
   /// The cloth tore: where a point between nodes was held may be a hole.
@@ -250,6 +258,7 @@ class ContactConstraints {
   std::vector<Touch> pressed_, not_held_, kept_aside_;
   std::vector<std::size_t> yielding_;  ///< solid of each body, index
   std::vector<Hung> hung_;
+  std::vector<std::size_t> joined_;  ///< touches in the system, indices
   Substep substep_;
   bool near_rest_ = false;
 };

@@ -6,6 +6,13 @@
 #include "cloth/contact/constraints/contact_constraints.h"
 
 namespace weft {
+namespace {
+
+/// What holds two bodies apart, as a multiple of what their masses resist within a substep: pressed by what
+/// speeds them up as gravity does they overlap by this part of its way in a substep.
+constexpr double kJoined = 1000;
+
+}  // namespace
 
 template <class Real>
 std::optional<int> ContactConstraints<Real>::body_of(const Solid& solid, const std::vector<Solid>& solids,
@@ -28,6 +35,66 @@ void ContactConstraints<Real>::hang(const std::vector<BodySpring>& springs, cons
     const std::optional<int> body = body_of(solids[spring.solid], solids, bodies);
     if (body) hung_.push_back({spring, point, *body});
   }
+}
+
+template <class Real>
+void ContactConstraints<Real>::join(const std::vector<BodyTouch>& touches, const std::vector<Solid>& solids,
+                                    AttachedBodies<Real>& bodies) {
+  joined_.clear();
+  if (touches.empty() || yielding_.empty()) return;
+  const auto known = [&](std::size_t solid) {
+    return std::find(yielding_.begin(), yielding_.end(), solid) != yielding_.end();
+  };
+  std::vector<char> taken(touches.size());
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      if (taken[i] != 0 || !(known(touches[i].a()) || known(touches[i].b()))) continue;
+      body_of(solids[touches[i].a()], solids, bodies);
+      body_of(solids[touches[i].b()], solids, bodies);
+      taken[i] = 1;
+      more = true;
+    }
+  }
+  std::vector<BodyPush> pushes;
+  const double rate = kJoined / (substep_.seconds * substep_.seconds), to = substep_.to;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    if (taken[i] == 0) continue;
+    const BodyTouch& touch = touches[i];
+    const Solid &a = solids[touch.a()], &b = solids[touch.b()];
+    BodyPush push;
+    push.id = i;
+    push.arm_a = touch.arm_a(solids, to);
+    push.arm_b = touch.arm_b(solids, to);
+    push.normal = touch.normal();
+    push.overlap = touch.overlap(solids, to);
+    push.touches = push.overlap > -standard_gravity().norm() * substep_.seconds * substep_.seconds;
+    push.stiffness =
+        rate / (a.inverse_mass_at(push.arm_a, push.normal) + b.inverse_mass_at(push.arm_b, push.normal));
+    if (a.yields()) {
+      push.a = *body_of(a, solids, bodies);
+      push.b = body_of(b, solids, bodies);
+    } else {  // b does
+      push.a = *body_of(b, solids, bodies);
+      std::swap(push.arm_a, push.arm_b);
+      push.normal = -push.normal;
+    }
+    pushes.push_back(push);
+    joined_.push_back(i);
+  }
+  bodies.set_pushes(pushes);
+}
+
+template <class Real>
+bool ContactConstraints<Real>::add_impulses(const AttachedBodies<Real>& bodies,
+                                            std::vector<BodyTouch>& touches) const {
+  const std::vector<double> forces = bodies.push_forces();
+  bool firm = false;
+  for (std::size_t i = 0; i < joined_.size(); ++i) {
+    touches[joined_[i]].impulse += substep_.seconds * forces[i];
+    firm = firm || (forces[i] > 0 && bodies.pushed_by_firm(i));
+  }
+  return firm;
 }
 
 template <class Real>
@@ -73,6 +140,14 @@ template std::optional<int> ContactConstraints<double>::body_of(const Solid&, co
                                                                 AttachedBodies<double>&);
 template void ContactConstraints<double>::hang(const std::vector<BodySpring>&, const Particles<double>&,
                                                const std::vector<Solid>&, AttachedBodies<double>&);
+template void ContactConstraints<float>::join(const std::vector<BodyTouch>&, const std::vector<Solid>&,
+                                              AttachedBodies<float>&);
+template void ContactConstraints<double>::join(const std::vector<BodyTouch>&, const std::vector<Solid>&,
+                                               AttachedBodies<double>&);
+template bool ContactConstraints<float>::add_impulses(const AttachedBodies<float>&,
+                                                      std::vector<BodyTouch>&) const;
+template bool ContactConstraints<double>::add_impulses(const AttachedBodies<double>&,
+                                                       std::vector<BodyTouch>&) const;
 template double ContactConstraints<float>::hung_share(double, const std::vector<Solid>&) const;
 template double ContactConstraints<double>::hung_share(double, const std::vector<Solid>&) const;
 template auto ContactConstraints<float>::firm(const std::vector<Touch>&, const Particles<float>&,

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cloth/bodies/body_touch.h"
 #include "cloth/contact/search/points_between.h"
 #include "cloth/core/substep.h"
 
@@ -97,9 +98,9 @@ class Contact {
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
       bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
 
-  /// The free nodes that have passed the surface of a solid that does not yield, wherever they are now, on
-  /// their ways from `start`, where they were as the substep began. Of slow ones none: those are inside().
-  /// Valid until the next call.
+  /// The free nodes that have passed the surface of a solid, wherever they are now, on their ways from
+  /// `start`, where they were as the substep began. Of slow ones none: those are inside(). Valid until the
+  /// next call.
   const std::vector<Arrival>& passed(const Particles<Real>& particles, const VectorField<Real>& start,
                                      const std::vector<Solid>& solids, const Substep& substep);
 
@@ -118,6 +119,11 @@ class Contact {
   /// After resolve: these are in contact, too, be they outside by a hair, where what presses them put them.
   /// Returns how many resolve did not find.
   int keep(const std::vector<Touch>& pressed);
+
+  /// Where the solids touch one another in the step that begins, which a method that solves for bodies on the
+  /// cloth has them push each other at, and tells the impulse; nullptr: nowhere.
+  void set_body_touches(std::vector<BodyTouch>* touches) { body_touches_ = touches; }
+  std::vector<BodyTouch>* body_touches() const { return body_touches_; }
 
   /// What the last resolve found in contact, ordered by tile, then node, with what slid off, and then what
   /// was kept; after expect() by node, then collider.
@@ -158,6 +164,7 @@ class Contact {
   ContactCounters counters_;
   std::vector<Touch> touches_, inside_, not_held_, kept_aside_;
   std::vector<Arrival> arrivals_;
+  std::vector<BodyTouch>* body_touches_ = nullptr;
   VectorField<Real> ahead_;  ///< where the nodes will be if they go on
   VectorField<Real> began_;  ///< where they were as the substep began
 };

@@ -95,11 +95,10 @@ const std::vector<Arrival>& Contact<Real>::passed(const Particles<Real>& particl
                                                   const VectorField<Real>& start,
                                                   const std::vector<Solid>& solids, const Substep& substep) {
   arrivals_.clear();
-  if (std::none_of(solids.begin(), solids.end(), stands_firm)) return arrivals_;
   const Way<Real> ends = Way<Real>::to(particles.position);
   const double longest = ends.longest(start);
   const auto is_fast = [&](const Solid& solid) {
-    return stands_firm(solid) && longest + sweep_of(solid, substep) > kSlowMove * inner_radius(solid.shape);
+    return longest + sweep_of(solid, substep) > kSlowMove * inner_radius(solid.shape);
   };
   if (std::none_of(solids.begin(), solids.end(), is_fast)) return arrivals_;
   const kernels::Components<const Real> from = kernels::components(start),

@@ -1,11 +1,10 @@
-// What lies on a body that another body has moved since: it is pushed along, and held by the face it lay on.
+// What lies on a body that another body has moved since is held by the face it lay on.
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/solver/node_arrays.h"
-#include "cloth/world/cloth.h"
 #include "fixtures.h"
 
 namespace weft::test {
@@ -57,30 +56,6 @@ TEST(MovedBodies, HoldANodeByTheFaceItLayOn) {
   expect_along({0, 0, 1}, held(contacts, bodies, sheet, {cube_at({0.085, 0, -0.1})}));
   expect_along({0, 0, 1}, held(contacts, bodies, sheet, {cube_at({0.085, 0, -0.07})}));
   expect_along({1, 0, 0}, held(anew, bodies, sheet, {cube_at({0.085, 0, -0.07})}));
-}
-
-// A cube that lies 0.1 mm deep in a held sheet, and is 10 mm lower after the step than the cloth left it.
-TEST(MovedBodies, PushWhatLiesOnThemAlong) {
-  ClothDescription description;
-  description.min_level = description.initial_level = description.max_level = 4;
-  description.size = {1, 1};
-  description.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
-  description.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}};
-  Cloth<double> cloth(description, {}, BackwardEulerDescription{}, 1);
-  cloth.advance({cube_at({0, 0.0999, 0})}, Air(Wind{}, 1), 0, kMovedStep);
-  const std::vector<Touch> touches(cloth.touches().begin(), cloth.touches().end());
-  ASSERT_GT(touches.size(), 4U);
-  const Particles<double> before = cloth.particles();
-  cloth.make_way({cube_at({0, 0.0899, 0})});
-  const Particles<double>& after = cloth.particles();
-  each_node(after.grid(), [&](int r, int c) {
-    const Vec3 way = after.position_at(r, c) - before.position_at(r, c);
-    const bool touched = std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
-      return touch.point() == PointId{after.grid().index(r, c)};
-    });
-    EXPECT_LT((way - Vec3(0, touched ? -0.01 : 0, 0)).norm(), 2e-4) << r << ", " << c;
-    EXPECT_EQ(after.velocity_at(r, c), before.velocity_at(r, c));
-  });
 }
 
 }  // namespace weft::test

@@ -1,0 +1,64 @@
+#include "cloth/integrators/body_energy.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "cloth/kernels/node_vector.h"
+#include "cloth/sheet/diagnostics.h"
+
+namespace weft {
+namespace {
+
+/// Rounding and what a solve leaves, as a part of all the energy there is.
+constexpr double kLeft = 0.05;
+
+double kinetic_energy_of(const std::vector<Solid>& solids) {
+  double energy = 0;
+  for (const Solid& solid : solids) {
+    if (!solid.yields()) continue;
+    energy += solid.velocity.squaredNorm() / (2 * solid.inverse_mass);
+    if (solid.yields_turning()) energy += solid.spin.dot(solid.inverse_inertia.inverse() * solid.spin) / 2;
+  }
+  return energy;
+}
+
+/// Moves by itself, and so can do any work.
+bool drives(const Solid& solid) {
+  return !solid.yields() && (!solid.velocity.isZero(0) || !solid.turn.isZero(0));
+}
+
+}  // namespace
+
+template <class Real>
+void BodyEnergy<Real>::begin(const Particles<Real>& particles, const Forces<Real>& forces,
+                             const std::vector<Solid>& solids) {
+  applies_ = !forces.rescued && forces.pins == nullptr && forces.layers == nullptr && !forces.holds_gas() &&
+             std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); }) &&
+             std::none_of(solids.begin(), solids.end(), drives);
+  if (!applies_) return;
+  bodies_ = kinetic_energy_of(solids);
+  cloth_ = kinetic_energy(particles) + forces.sheet->energy(particles.position);
+  start_ = particles.position;
+}
+
+template <class Real>
+bool BodyEnergy<Real>::exceeded(const Particles<Real>& particles, const Forces<Real>& forces,
+                                const std::vector<Solid>& solids) {
+  if (!applies_) return false;
+  const double gained = kinetic_energy(particles) + forces.sheet->energy(particles.position) - cloth_;
+  if (gained <= kLeft * bodies_) return false;
+  const Grid& grid = particles.grid();
+  if (force_.grid() != grid) force_ = VectorField<Real>(grid);
+  forces.sum_effects(particles, force_);
+  const auto force = kernels::components(std::as_const(force_));
+  const auto from = kernels::components(std::as_const(start_)), to = kernels::components(particles.position);
+  double work = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) work += std::abs(at(force, i).dot(at(to, i) - at(from, i)));
+  const double lost = bodies_ - kinetic_energy_of(solids);
+  return gained > lost + work + kLeft * (cloth_ + bodies_);
+}
+
+template class BodyEnergy<float>;
+template class BodyEnergy<double>;
+
+}  // namespace weft

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "cloth/integrators/forces.h"
+#include "cloth/shapes/solid.h"
+
+namespace weft {
+
+/// What a cloth may gain in a step by the bodies that it meets: no more than they lose, J. A solve that ends
+/// before it has found what a hard blow leaves may gain far more, as nodes that it has not held are put out
+/// of bodies without work.
+template <class Real>
+class BodyEnergy {
+ public:
+  /// As a step begins; `solids` as they fly in it.
+  void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids);
+  /// As it ends: the cloth has gained more than the bodies and its effects could give. Never if something
+  /// else may do work on it: pins, other solids that move, other cloths, gas, hands.
+  bool exceeded(const Particles<Real>& particles, const Forces<Real>& forces,
+                const std::vector<Solid>& solids);
+
+ private:
+  bool applies_ = false;
+  double cloth_ = 0, bodies_ = 0;  ///< as the step begins, J
+  VectorField<Real> start_, force_;
+};
+
+extern template class BodyEnergy<float>;
+extern template class BodyEnergy<double>;
+
+}  // namespace weft
