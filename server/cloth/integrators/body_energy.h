@@ -14,8 +14,8 @@ class BodyEnergy {
  public:
   /// As a step begins; `solids` as they fly in it.
   void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids);
-  /// As it ends: the cloth has gained more than the bodies and its effects could give. Never if something
-  /// else may do work on it: pins, other solids that move, other cloths, gas, hands.
+  /// As it ends: the cloth has gained more than the bodies and its effects, hands among them, could give.
+  /// Never if something else may do work on it: pins, other solids that move, other cloths, gas.
   bool exceeded(const Particles<Real>& particles, const Forces<Real>& forces,
                 const std::vector<Solid>& solids);
 
