@@ -15,9 +15,7 @@ constexpr double kLeft = 0.05;
 double kinetic_energy_of(const std::vector<Solid>& solids) {
   double energy = 0;
   for (const Solid& solid : solids) {
-    if (!solid.yields()) continue;
-    energy += solid.velocity.squaredNorm() / (2 * solid.inverse_mass);
-    if (solid.yields_turning()) energy += solid.spin.dot(solid.inverse_inertia.inverse() * solid.spin) / 2;
+    if (solid.yields()) energy += kinetic_energy(solid);
   }
   return energy;
 }
@@ -28,6 +26,12 @@ bool drives(const Solid& solid) {
 }
 
 }  // namespace
+
+double kinetic_energy(const Solid& solid) {
+  double energy = solid.velocity.squaredNorm() / (2 * solid.inverse_mass);
+  if (solid.yields_turning()) energy += solid.spin.dot(solid.inverse_inertia.inverse() * solid.spin) / 2;
+  return energy;
+}
 
 template <class Real>
 void BodyEnergy<Real>::begin(const Particles<Real>& particles, const Forces<Real>& forces,

@@ -6,6 +6,9 @@
 
 namespace weft {
 
+/// Of a solid that yields, J.
+double kinetic_energy(const Solid& solid);
+
 /// What a cloth may gain in a step by the bodies that it meets: no more than they lose, J. A solve that ends
 /// before it has found what a hard blow leaves may gain far more, as nodes that it has not held are put out
 /// of bodies without work.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/integrators/body_energy.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
@@ -27,13 +28,6 @@ Vec3 angular_momentum(const Solid& solid, const Vec3& velocity, const Vec3& spin
   Vec3 sum = (place + solid.position - point).cross(velocity / solid.inverse_mass);
   if (solid.yields_turning()) sum += solid.inverse_inertia.inverse() * spin;
   return sum;
-}
-
-/// J.
-double kinetic_energy(const Solid& solid) {
-  double energy = solid.velocity.squaredNorm() / (2 * solid.inverse_mass);
-  if (solid.yields_turning()) energy += solid.spin.dot(solid.inverse_inertia.inverse() * solid.spin) / 2;
-  return energy;
 }
 
 /// The largest share of a change, up to 1, that adds no more than `most` to an energy which it changes by
