@@ -22,6 +22,9 @@ std::string what_was_wrong(const GuardEvent& event) {
       return "a speed of " + number(event.value) + " m/s" + limit;
     case Fault::too_stretched:
       return "a strain of " + number(event.value) + limit;
+    case Fault::gained:
+      return number(event.value) + " J more than before (at most " + number(event.limit) +
+             " J could come from what it met)";
     case Fault::unsolved:
       return "no solution";
     case Fault::too_costly:

@@ -12,6 +12,7 @@ enum class Fault {
   not_finite,     ///< a position or a velocity is NaN or infinite
   too_fast,       ///< a node is faster than StepGuard::kMostSpeed
   too_stretched,  ///< a structural spring is strained beyond StepGuard::kMostStrain
+  gained,         ///< it brought in more energy than anything could give (BodyEnergy)
   unsolved,       ///< the integrator itself says that it found no next state
   too_costly,     ///< the step would take more work than it may (interrupt.h)
   crowded,        ///< more cloth lies in one place than is kept apart
@@ -32,7 +33,7 @@ struct GuardEvent {
   };
   Action action = Action::redone;
   Fault fault = Fault::none;  ///< none if thawed
-  double value = 0;           ///< what was found: m/s, or the strain; not by let_through
+  double value = 0;           ///< what was found: m/s, the strain, or J; not by let_through
   double limit = 0;           ///< and what is allowed
   Rung rung = Rung::own;      ///< redone and thawed
   std::size_t cloth = 0;      ///< index

@@ -79,6 +79,11 @@ template <class Real>
 auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& report) -> Verdict {
   Finding finding = look_at(particles);
   if (finding.fault == Fault::none && !report.sound) finding.fault = Fault::unsolved;
+  if (finding.fault == Fault::none && report.gained > report.could_give) {
+    finding.fault = Fault::gained;
+    finding.value = report.gained;
+    finding.limit = report.could_give;
+  }
   if (finding.fault == Fault::none) {
     keep(particles, finding.speed);
     went_well(finding);

@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Keeps a cloth's last good state and takes a step back that leaves a bad one: not finite, runaway, or
-/// given up by the integrator. It is then made again by safer and safer methods (Rung), and the one that
+/// Keeps a cloth's last good state and takes a step back that leaves a bad one: not finite, runaway, with
+/// energy that nothing gave, or given up by the integrator. It is then made again by safer and safer methods (Rung), and the one that
 /// works is kept for kHold steps before the cloth's own is tried again, first within limits near what there
 /// was meanwhile, so that a method that is not stable does not get far. If none works the cloth is frozen: it
 /// stands still at its last good state and is tried again after 1, 2, 4, ... steps. Trouble that comes back

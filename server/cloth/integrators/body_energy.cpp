@@ -46,11 +46,11 @@ void BodyEnergy<Real>::begin(const Particles<Real>& particles, const Forces<Real
 }
 
 template <class Real>
-bool BodyEnergy<Real>::exceeded(const Particles<Real>& particles, const Forces<Real>& forces,
-                                const std::vector<Solid>& solids) {
-  if (!applies_) return false;
+void BodyEnergy<Real>::judge(const Particles<Real>& particles, const Forces<Real>& forces,
+                             const std::vector<Solid>& solids, AdvanceReport& report) {
+  if (!applies_) return;
   const double gained = kinetic_energy(particles) + forces.sheet->energy(particles.position) - cloth_;
-  if (gained <= kLeft * bodies_) return false;
+  if (gained <= kLeft * bodies_) return;
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) force_ = VectorField<Real>(grid);
   forces.sum_effects(particles, force_);
@@ -59,7 +59,10 @@ bool BodyEnergy<Real>::exceeded(const Particles<Real>& particles, const Forces<R
   double work = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) work += std::abs(at(force, i).dot(at(to, i) - at(from, i)));
   const double lost = bodies_ - kinetic_energy_of(solids);
-  return gained > lost + work + kLeft * (cloth_ + bodies_);
+  const double could_give = std::max(0.0, lost + work + kLeft * (cloth_ + bodies_));
+  if (gained <= could_give) return;
+  report.gained = gained;
+  report.could_give = could_give;
 }
 
 template class BodyEnergy<float>;

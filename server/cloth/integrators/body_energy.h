@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "cloth/integrators/forces.h"
+#include "cloth/integrators/integrator.h"
 #include "cloth/shapes/solid.h"
 
 namespace weft {
@@ -17,10 +18,11 @@ class BodyEnergy {
  public:
   /// As a step begins; `solids` as they fly in it.
   void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids);
-  /// As it ends: the cloth has gained more than the bodies and its effects, hands among them, could give.
-  /// Never if something else may do work on it: pins, other solids that move, other cloths, gas.
-  bool exceeded(const Particles<Real>& particles, const Forces<Real>& forces,
-                const std::vector<Solid>& solids);
+  /// As it ends: reports if the cloth has gained more than the bodies and its effects, hands among them,
+  /// could give (AdvanceReport::gained). Never if something else may do work on it: pins, other solids that
+  /// move, other cloths, gas.
+  void judge(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
+             AdvanceReport& report);
 
  private:
   bool applies_ = false;

@@ -127,7 +127,8 @@ AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> f
   const double scale = memory_->ledger.end_step(particles, forces, dt, touched, freedom, report);
   // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
   if (scale != 1) formula.scale(particles, scale, freedom);
-  report.sound = state_->sound && !(touched && body_energy_.exceeded(particles, forces, solids));
+  report.sound = state_->sound;
+  if (touched) body_energy_.judge(particles, forces, solids, report);
   return report;
 }
 

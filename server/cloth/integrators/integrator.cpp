@@ -17,6 +17,8 @@ AdvanceReport& AdvanceReport::operator+=(const AdvanceReport& next) {
   energy_given_back += next.energy_given_back;
   effects_work += next.effects_work;
   contact_took += next.contact_took;
+  gained += next.gained;
+  could_give += next.could_give;
   sound = sound && next.sound;
   return *this;
 }

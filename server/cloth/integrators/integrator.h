@@ -21,6 +21,9 @@ struct AdvanceReport {
   /// J, that the effects, gravity among them, did on the cloth, and that contact took from it by impacts and
   /// friction; of a cloth that nothing holds or touches beside its centre of mass. 0 where not counted.
   double effects_work = 0, contact_took = 0;
+  /// J, that the step brought into the cloth, and the most that the bodies it meets and its effects could
+  /// give; 0 where it brought in no more than that (BodyEnergy).
+  double gained = 0, could_give = 0;
   bool sound = true;  ///< false if no next state was found: the particles' is not to be used
 
   /// What this and the advance after it did together.
@@ -29,7 +32,7 @@ struct AdvanceReport {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(substeps, nodes_in_contact, linear_iterations, energy_lost, energy_given_back, effects_work,
-            contact_took, sound);
+            contact_took, gained, could_give, sound);
   }
 };
 

@@ -100,6 +100,24 @@ TYPED_TEST(GuardLimits, SpeedAndStrainHaveLimits) {
   EXPECT_EQ(stretched.limit, 1e4);
 }
 
+TYPED_TEST(GuardLimits, WhatAStepGainedIsNoMoreThanWhatCouldBeGiven) {
+  using Real = TypeParam;
+  Particles<Real> sheet = test::flat_sheet<Real>(5, 5, {2, 2});
+  StepGuard<Real> guard{IntegratorDescription{}};
+  guard.enter(sheet, {0.5, 0.5});
+  AdvanceReport report;
+  report.gained = report.could_give = 3;
+  EXPECT_EQ(guard.judge(sheet, report), StepGuard<Real>::Verdict::good);
+  report.gained = 3.5;
+  EXPECT_EQ(guard.judge(sheet, report), StepGuard<Real>::Verdict::make_again);
+  guard.judge(sheet, {});  // good again
+  const GuardEvent event = guard.take_events().at(0);
+  EXPECT_EQ(event.fault, Fault::gained);
+  EXPECT_EQ(event.value, 3.5);
+  EXPECT_EQ(event.limit, 3);
+  EXPECT_EQ(event.rung, Rung::substeps_4);
+}
+
 TEST(GuardEvents, AreToldInWords) {
   GuardEvent event;
   event.action = GuardEvent::Action::redone;
@@ -110,6 +128,13 @@ TEST(GuardEvents, AreToldInWords) {
   event.step = 120;
   EXPECT_EQ(describe(event, "flag"),
             "flag: step 120 gave a speed of 2e+07 m/s (at most 1e+06): made again with 4 times the substeps");
+  event.fault = Fault::gained;
+  event.value = 317;
+  event.limit = 40;
+  EXPECT_EQ(
+      describe(event, "flag"),
+      "flag: step 120 gave 317 J more than before (at most 40 J could come from what it met): made again "
+      "with 4 times the substeps");
   event.action = GuardEvent::Action::ball_stopped;
   event.fault = Fault::not_finite;
   event.ball = 3;
