@@ -76,7 +76,7 @@ bool StepGuard<Real>::stands_still() {
 }
 
 template <class Real>
-auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& report) -> Verdict {
+auto StepGuard<Real>::find(const Particles<Real>& particles, const AdvanceReport& report) const -> Finding {
   Finding finding = look_at(particles);
   if (finding.fault == Fault::none && !report.sound) finding.fault = Fault::unsolved;
   if (finding.fault == Fault::none && report.gained > report.could_give) {
@@ -84,6 +84,12 @@ auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& rep
     finding.value = report.gained;
     finding.limit = report.could_give;
   }
+  return finding;
+}
+
+template <class Real>
+auto StepGuard<Real>::judge(Particles<Real>& particles, const AdvanceReport& report) -> Verdict {
+  const Finding finding = find(particles, report);
   if (finding.fault == Fault::none) {
     keep(particles, finding.speed);
     went_well(finding);

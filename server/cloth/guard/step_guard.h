@@ -9,11 +9,11 @@
 namespace weft {
 
 /// Keeps a cloth's last good state and takes a step back that leaves a bad one: not finite, runaway, with
-/// energy that nothing gave, or given up by the integrator. It is then made again by safer and safer methods (Rung), and the one that
-/// works is kept for kHold steps before the cloth's own is tried again, first within limits near what there
-/// was meanwhile, so that a method that is not stable does not get far. If none works the cloth is frozen: it
-/// stands still at its last good state and is tried again after 1, 2, 4, ... steps. Trouble that comes back
-/// soon doubles both times, and begins with the rung that worked.
+/// energy that nothing gave, or given up by the integrator. It is then made again by safer and safer methods
+/// (Rung), and the one that works is kept for kHold steps before the cloth's own is tried again, first within
+/// limits near what there was meanwhile, so that a method that is not stable does not get far. If none works
+/// the cloth is frozen: it stands still at its last good state and is tried again after 1, 2, 4, ... steps.
+/// Trouble that comes back soon doubles both times, and begins with the rung that worked.
 ///
 /// Knows nothing of contacts or the integrators' insides: Cloth makes the steps (Cloth::advance).
 template <class Real>
@@ -51,6 +51,10 @@ class StepGuard {
     make_again,  ///< the particles are at the last good state again; by method()
     stand_still  ///< they are, at rest, and stay there in this step
   };
+  /// A step left a good state.
+  bool passes(const Particles<Real>& particles, const AdvanceReport& report) const {
+    return find(particles, report).fault == Fault::none;
+  }
   /// Judges a step.
   Verdict judge(Particles<Real>& particles, const AdvanceReport& report);
   /// The state was changed after the step it was judged in: it is the last good one from now on, if it is
@@ -105,6 +109,8 @@ class StepGuard {
     }
   };
   Finding look_at(const Particles<Real>& particles) const;
+  /// After a step.
+  Finding find(const Particles<Real>& particles, const AdvanceReport& report) const;
   void keep(const Particles<Real>& particles, double speed);
   /// The limits of the trial that follows the hold.
   void watch_hold(const Finding& finding);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "cloth/kernels/node_vector.h"
 
@@ -22,11 +23,23 @@ constexpr double kSolveRounding = 300;
 }  // namespace
 
 template <class Real>
+ChangeSearch<Real>::ChangeSearch(std::vector<ChangedPart<Real>> parts, const LayerContacts<Real>* layers)
+    : parts_(std::move(parts)), layers_(layers) {
+  for (const ChangedPart<Real>& part : parts_) stretched_to_twice_ += part.stretched_to_twice;
+}
+
+template <class Real>
 ChangeReport ChangeSearch<Real>::take_whole(double decrease) {
   std::vector<OneSidedSpring> springs;
-  if (!contacts_.empty()) contacts_.append_springs(nodes_.move, nodes_.change, system_.bodies(), springs);
-  system_.bodies().append_springs(springs);
-  if (forces_.layers != nullptr) forces_.layers->append_springs(nodes_.move, nodes_.change, springs);
+  std::vector<kernels::Components<const Real>> moves, changes;
+  for (const ChangedPart<Real>& part : parts_) {
+    if (!part.contacts.empty())
+      part.contacts.append_springs(part.move, part.change, part.system.bodies(), springs);
+    part.system.bodies().append_springs(springs);
+    moves.push_back(part.move);
+    changes.push_back(part.change);
+  }
+  if (layers_ != nullptr) layers_->append_springs(moves, changes, springs);
   double share = springs.empty() ? 1 : best_share(springs, decrease);
   if (share < 1) scale(share);
   for (;;) {
@@ -47,14 +60,24 @@ ChangeReport ChangeSearch<Real>::take_searched(double decrease) {
     if (report.brought_in <= 0) return report;
     scale(0.5);
   }
-  clear(nodes_.change, system_.grid().size());
-  system_.bodies().scale_changes(0);
+  for (const ChangedPart<Real>& part : parts_) {
+    clear(part.change, part.system.grid().size());
+    part.system.bodies().scale_changes(0);
+  }
   return {.taken = false};
 }
 
 template <class Real>
 ChangeReport ChangeSearch<Real>::judge(double decrease) const {
-  const kernels::SpringModelError error = forces_.model_error(system_.grid(), nodes_.position, nodes_.change);
+  kernels::SpringModelError error;
+  for (const ChangedPart<Real>& part : parts_) {
+    const kernels::SpringModelError of_part =
+        part.forces.model_error(part.system.grid(), part.position, part.change);
+    error.sum += of_part.sum;
+    error.magnitude += of_part.magnitude;
+    error.largest = std::max(error.largest, of_part.largest);
+    error.struck = std::max(error.struck, of_part.struck);
+  }
   const double rounding = double(std::numeric_limits<Real>::epsilon()) *
                           (kRounding * error.magnitude + kSolveRounding * decrease);
   return {.brought_in = error.sum - decrease + rounding,
@@ -67,11 +90,13 @@ ChangeReport ChangeSearch<Real>::judge(double decrease) const {
 
 template <class Real>
 void ChangeSearch<Real>::scale(double share) {
-  for (Real* component : {nodes_.change.x, nodes_.change.y, nodes_.change.z}) {
-    std::transform(component, component + system_.grid().size(), component,
-                   [part = static_cast<Real>(share)](Real x) { return part * x; });
+  for (const ChangedPart<Real>& part : parts_) {
+    for (Real* component : {part.change.x, part.change.y, part.change.z}) {
+      std::transform(component, component + part.system.grid().size(), component,
+                     [by = static_cast<Real>(share)](Real x) { return by * x; });
+    }
+    part.system.bodies().scale_changes(share);
   }
-  system_.bodies().scale_changes(share);
 }
 
 template class ChangeSearch<float>;

@@ -16,26 +16,27 @@ struct ChangeReport {
   bool wild = false;   ///< brings in far more than was to be gained
 };
 
-/// How much of the change that a linear solve has found is taken. The solve gains `decrease`, J, by the
-/// linearisation, and a share s of its change s (2 - s) of that; what it does beyond the springs, the gas and
-/// contact tell.
+/// One cloth's part of a change.
+template <class Real>
+struct ChangedPart {
+  const Forces<Real>& forces;
+  const ContactConstraints<Real>& contacts;
+  Multigrid<Real>& system;
+  /// The nodes as the linearisation has them: their positions, m, of the cloth's own place, with margins;
+  /// their moves in the substep, and the change, which is scaled in place, m.
+  kernels::Components<const Real> position, move;
+  kernels::Components<Real> change;
+  double stretched_to_twice;  ///< J, that all springs hold at their double length
+};
+
+/// How much of the change that a linear solve has found is taken, of all cloths that were solved together.
+/// The solve gains `decrease`, J, by the linearisation, and a share s of its change s (2 - s) of that; what
+/// it does beyond the springs, the gas and contact tell.
 template <class Real>
 class ChangeSearch {
  public:
-  /// The nodes as the linearisation has them: their positions, m, of the cloth's own place, with margins;
-  /// their moves in the substep, and the change, which is scaled in place, m.
-  struct Nodes {
-    kernels::Components<const Real> position, move;
-    kernels::Components<Real> change;
-  };
-  /// All are kept by reference. `stretched_to_twice`, J, is what all springs hold at their double length.
-  ChangeSearch(const Forces<Real>& forces, const ContactConstraints<Real>& contacts, Multigrid<Real>& system,
-               const Nodes& nodes, double stretched_to_twice)
-      : forces_(forces),
-        contacts_(contacts),
-        system_(system),
-        nodes_(nodes),
-        stretched_to_twice_(stretched_to_twice) {}
+  /// What the parts refer to is kept so. `layers` are the contacts among them, or nullptr.
+  ChangeSearch(std::vector<ChangedPart<Real>> parts, const LayerContacts<Real>* layers);
 
   /// The whole, but less where contacts that the system did not hold come in its way (best_share), or where
   /// it is wild.
@@ -49,11 +50,9 @@ class ChangeSearch {
   ChangeReport judge(double decrease) const;
   void scale(double share);
 
-  const Forces<Real>& forces_;
-  const ContactConstraints<Real>& contacts_;
-  Multigrid<Real>& system_;
-  Nodes nodes_;
-  double stretched_to_twice_;
+  std::vector<ChangedPart<Real>> parts_;
+  const LayerContacts<Real>* layers_;
+  double stretched_to_twice_ = 0;  ///< J
 };
 
 extern template class ChangeSearch<float>;

@@ -34,6 +34,7 @@ struct Forces {
   const Pins<Real>* pins = nullptr;       ///< if any of them moves
   SoftPins<Real>* soft_pins = nullptr;    ///< the one among the effects, if some hold
   LayerContacts<Real>* layers = nullptr;  ///< if layers of cloth lie near one another in this step
+  std::size_t part = 0;                   ///< of the layers, this cloth
   bool layered = false;                   ///< some may, in the scene
   Bag<Real>* bag = nullptr;               ///< of a sewn cloth
   Drive drive = Drive::other;             ///< what may do work on the cloth in this step

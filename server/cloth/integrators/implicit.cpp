@@ -40,100 +40,72 @@ Implicit<Real>::State::State(const Grid& grid, const Sheet<Real>& sheet, bool se
 template <class Real>
 AdvanceReport Implicit<Real>::advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                                       std::vector<Solid>& solids, double time, double dt) {
-  AdvanceReport report;
-  report.substeps = parameters_.substeps;
-  forces.context.time = time;
-  const double asked = dt / parameters_.substeps;
-  int parts = forces.rescued ? 1 : parts_in_strong_air(particles, forces, asked);
-  if (contact != nullptr)
-    parts = std::max(parts, parts_beside_fast_solids(particles, *contact, solids, asked, dt));
-  report.substeps *= parts;
-  const double h = dt / report.substeps;
-  begin_step(particles, forces, h);
-  state_->sound = true;
-  StepFormula<Real>& formula = memory_->formula;
-  body_energy_.begin(particles, forces, solids);
-  memory_->ledger.begin_step(particles, forces, formula.lead() != nullptr ? h / 2 : 0);
-  ContactConstraints<Real>& contacts = memory_->contacts;
-  const Freedom unpushed = freedom_of(particles);
-  Freedom freedom = unpushed;  // what the last substep in which something touched it left the cloth
-  bool touched = false;
-  for (int substep = 0; substep < report.substeps; ++substep) {
-    const Substep part = Substep::of(substep, report.substeps, dt);
-    const auto begin = Clock::now();
-    state_->motion.measure(particles);
-    if (contact != nullptr) {
-      contacts.begin(contact->expect(particles, solids, part), contact->foresee(particles, solids, part),
-                     particles, solids, part, state_->motion.near_rest(), state_->system.bodies());
-    } else {
-      contacts.clear();
-      state_->system.bodies().clear();
-    }
-    surroundings_ = {contact, &solids, part};
-    forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
-    forces.context.step = h;
-    forces.carry_pins(particles, forces.context.time);
-    bool hung = false;  // all that soft pins hold is bodies
-    if (forces.soft_pins != nullptr && contact != nullptr) {
-      const auto springs = forces.soft_pins->on_bodies(particles, solids, time, dt, part);
-      contacts.hang(springs, particles, solids, state_->system.bodies());
-      hung = springs.size() == forces.soft_pins->count();
-    }
-    if (contact != nullptr && contact->body_touches() != nullptr)
-      contacts.join(*contact->body_touches(), solids, state_->system.bodies());
-    if (forces.layers != nullptr) forces.layers->begin(particles, part, state_->motion.near_rest());
-    begin_substep(particles, forces, h);
-    if (contacts.hangs() && !hung) {
-      memory_->momentum.restart();
-    } else {
-      memory_->momentum.begin_substep(particles, forces, solids, hung);
-    }
-    report.linear_iterations += find_move(particles, forces, h);
-    bool held_up = false;  // what the cloth touches is pushed by what stands firm, which takes momentum
-    const auto moved = Clock::now();
-    report.forces_seconds += seconds(moved - begin);
-    if (forces.layers != nullptr) forces.layers->finish(state_->move);
-    if (contact != nullptr) {
-      held_up = contacts.joins() && contacts.add_impulses(state_->system.bodies(), *contact->body_touches());
-      const auto& pressed = contacts.finish(state_->move, state_->system.bodies(), solids);
-      contacts.keep_velocities(kernels::components(particles.velocity));
-      contact->let_slide_off(contacts.not_held());
-      contact->trust(contacts.kept_aside());
-      resolve_contact(particles, *contact, solids, part, report);
-      report.nodes_in_contact += contact->keep(pressed);
-      report.contact_seconds += seconds(Clock::now() - moved);
-    }
-    forces.join(particles);
-    if (forces.sheet->damped()) find_way(forces);  // with what the last iteration has added
-    memory_->ledger.count_work(particles, forces,
-                               {formula.start(), formula.start_velocity(),
-                                forces.sheet->damped() ? &state_->way : nullptr, formula.lead(), h});
-    Freedom now = unpushed;
-    bool rubs = held_up;
-    if (contact != nullptr && !unpushed.is_none()) {
-      const auto firm = contacts.firm(contact->touches(), particles, solids);
-      rubs = rubs || firm.rubs;
-      now = rubs ? Freedom::none() : freedom_beside(firm.pushes, particles);
-    }
-    const double kept = memory_->momentum.end_substep(particles, forces, solids, formula.start(), contact,
-                                                      now, rubs, formula.by_bdf2(), h);
-    if (kept != 1) formula.scale(particles, kept, now);
-    if (report.nodes_in_contact > 0 || !contacts.empty()) {
-      touched = true;
-      freedom = now;
-    }
-    end_substep(particles, contact);
-  }
-  const double scale = memory_->ledger.end_step(particles, forces, dt, touched, freedom, report);
-  // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
-  if (scale != 1) formula.scale(particles, scale, freedom);
-  report.sound = state_->sound;
-  if (touched) body_energy_.judge(particles, forces, solids, report);
-  return report;
+  Step step;
+  step.method = this;
+  step.particles = &particles;
+  step.forces = forces;
+  step.contact = contact;
+  step.solids = &solids;
+  advance_together({&step, 1}, time, dt);
+  return step.report;
 }
 
 template <class Real>
-void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h) {
+void Implicit<Real>::advance_together(std::span<Step> steps, double time, double dt) {
+  int substeps = 0;
+  for (Step& step : steps) {
+    step.forces.context.time = time;
+    substeps = std::max(substeps, step.method->substeps_of(step, dt));
+  }
+  for (Step& step : steps) {
+    step.report.substeps = substeps;
+    step.method->begin_step(step, dt);
+  }
+  LayerContacts<Real>* layers = steps[0].forces.layers;
+  for (int substep = 0; substep < substeps; ++substep) {
+    const Substep part = Substep::of(substep, substeps, dt);
+    const auto begin = Clock::now();
+    for (Step& step : steps) {
+      step.part = part;
+      step.method->meet_solids(step, time, dt);
+    }
+    if (layers != nullptr) {
+      std::vector<const Particles<Real>*> starts;
+      bool near_rest = true;
+      for (const Step& step : steps) {
+        starts.push_back(step.particles);
+        near_rest = near_rest && step.method->state_->motion.near_rest();
+      }
+      layers->begin(starts, part, near_rest);
+    }
+    for (Step& step : steps) step.method->begin_substep(step);
+    find_moves(steps);
+    const double taken = seconds(Clock::now() - begin);
+    for (Step& step : steps) step.report.forces_seconds += taken / static_cast<double>(steps.size());
+    if (layers != nullptr) layers->finish(moves_of(steps));
+    for (Step& step : steps) step.method->settle_substep(step);
+    keep_momentum(steps);
+    for (Step& step : steps) step.method->end_substep(step);
+  }
+  for (Step& step : steps) step.method->end_step(step, dt);
+}
+
+template <class Real>
+int Implicit<Real>::substeps_of(const Step& step, double dt) const {
+  const double asked = dt / parameters_.substeps;
+  int parts = step.forces.rescued ? 1 : parts_in_strong_air(*step.particles, step.forces, asked);
+  if (step.contact != nullptr) {
+    parts =
+        std::max(parts, parts_beside_fast_solids(*step.particles, *step.contact, *step.solids, asked, dt));
+  }
+  return parameters_.substeps * parts;
+}
+
+template <class Real>
+void Implicit<Real>::begin_step(Step& step, double dt) {
+  const Particles<Real>& particles = *step.particles;
+  Forces<Real>& forces = step.forces;
+  const double h = dt / step.report.substeps;
   const Grid& grid = particles.grid();
   if (!state_ || state_->system.grid() != grid) {
     state_.emplace(grid, *forces.sheet, forces.bag != nullptr);
@@ -156,6 +128,11 @@ void Implicit<Real>::begin_step(const Particles<Real>& particles, Forces<Real>& 
     free[i] = inverse_mass[i] > Real(0) ? Real(1) : Real(0);
     for (Real* component : {correction.x, correction.y, correction.z}) component[i] *= free[i];
   }
+  state_->sound = true;
+  body_energy_.begin(particles, forces, *step.solids);
+  memory_->ledger.begin_step(particles, forces, memory_->formula.lead() != nullptr ? h / 2 : 0);
+  step.unpushed = freedom_of(particles);
+  step.freedom = step.unpushed;
 }
 
 template <class Real>
@@ -175,14 +152,16 @@ void Implicit<Real>::measure_sheet(const Sheet<Real>& sheet, const ClothDescript
 }
 
 template <class Real>
-void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h) {
+void Implicit<Real>::begin_substep(Step& step) {
+  const Particles<Real>& particles = *step.particles;
+  const Forces<Real>& forces = step.forces;
   State& s = *state_;
-  s.h = h;
+  s.h = step.part.seconds;
   StepFormula<Real>& formula = memory_->formula;
   formula.begin_substep(particles);
   const auto break_motion = [&](std::size_t node) { formula.break_motion(node); };
   memory_->contacts.for_each_broken(break_motion);
-  if (forces.layers != nullptr) forces.layers->for_each_node(break_motion);
+  if (forces.layers != nullptr) forces.layers->for_each_node(forces.part, break_motion);
   formula.prepare();
   const bool solids = !memory_->contacts.empty();
   const bool touched = solids || memory_->contacts.hangs() ||
@@ -190,8 +169,13 @@ void Implicit<Real>::begin_substep(const Particles<Real>& particles, const Force
                        forces.sheet->torn() != nullptr;
   // A weight on the cloth pulls as many times harder, and what bends the threads that it hangs on turns as
   // much of that pull aside: solved for the cloth's own motion alone, it would swing itself up.
-  const double share = memory_->contacts.hung_share(total_mass(particles), *surroundings_.solids);
+  const double share = memory_->contacts.hung_share(total_mass(particles), *step.solids);
   s.target = s.motion.target(parameters_.tolerance * (touched ? kTouched : 1) * share * share, solids);
+  if (memory_->contacts.hangs() && !hung_) {
+    memory_->momentum.restart();
+  } else {
+    memory_->momentum.begin_substep(particles, forces, *step.solids, hung_);
+  }
 }
 
 template <class Real>
@@ -229,11 +213,6 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
                              finest.diagonal(), forces.sheet->springs().node_stiffness(), s.piece_mass,
                              s.move);
   }
-  if (forces.layers != nullptr) {
-    forces.layers->add_to(s.b, s.system.couplings(), finest.diagonal(), s.move);
-  }
-  if (forces.bag != nullptr) forces.bag->average(s.b);
-  s.system.prepare();
 }
 
 template <class Real>
@@ -254,35 +233,45 @@ void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<
 }
 
 template <class Real>
-void Implicit<Real>::resolve_contact(Particles<Real>& particles, Contact<Real>& contact,
-                                     std::vector<Solid>& solids, const Substep& part, AdvanceReport& report) {
-  State& s = *state_;
-  EnergyLedger<Real>& ledger = memory_->ledger;
-  const StepFormula<Real>& formula = memory_->formula;
-  double before = 0;
-  if (ledger.counts()) {
-    before = motion_energy(particles, Freedom::none()).inner;
-    ledger.count_contact(
-        memory_->contacts.work(s.move,
-                               {kernels::components(formula.start_velocity()),
-                                kernels::components(std::as_const(particles.velocity)),
-                                formula.lead() != nullptr ? formula.lead()->row(0) : nullptr},
-                               s.system.bodies()));
+void Implicit<Real>::keep_momentum(std::span<Step> steps) {
+  std::vector<typename MomentumKeeper<Real>::Member> members;
+  for (Step& step : steps) {
+    Memory& memory = *step.method->memory_;
+    members.push_back({&memory.momentum, step.particles, &step.forces, step.solids, &memory.formula.start(),
+                       step.contact, &step.now, step.rubs, memory.formula.by_bdf2()});
   }
-  report.nodes_in_contact = contact.resolve(particles, solids, part, &formula.start());
-  if (ledger.counts()) ledger.count_contact({before - motion_energy(particles, Freedom::none()).inner, 0});
+  const double kept = MomentumKeeper<Real>::end_substep(members, steps[0].part.seconds);
+  if (kept != 1) steps[0].method->memory_->formula.scale(*steps[0].particles, kept, steps[0].now);
 }
 
 template <class Real>
-void Implicit<Real>::end_substep(Particles<Real>& particles, const Contact<Real>* contact) {
-  memory_->formula.end_substep(particles);
-  if (contact == nullptr || !second_order_) return;
-  for (const Touch& touch : contact->touches()) {
-    if (memory_->contacts.goes_on(touch)) continue;
-    ClothPoint<Real>(touch.point(), particles).for_each_node([&](std::size_t node, double) {
-      memory_->formula.begin_anew(node);
+void Implicit<Real>::end_substep(Step& step) {
+  const ContactConstraints<Real>& contacts = memory_->contacts;
+  StepFormula<Real>& formula = memory_->formula;
+  if (step.report.nodes_in_contact > 0 || !contacts.empty()) {
+    step.touched = true;
+    step.freedom = step.now;
+  }
+  formula.end_substep(*step.particles);
+  if (step.contact == nullptr || !second_order_) return;
+  for (const Touch& touch : step.contact->touches()) {
+    if (contacts.goes_on(touch)) continue;
+    ClothPoint<Real>(touch.point(), *step.particles).for_each_node([&](std::size_t node, double) {
+      formula.begin_anew(node);
     });
   }
+}
+
+template <class Real>
+void Implicit<Real>::end_step(Step& step, double dt) {
+  Particles<Real>& particles = *step.particles;
+  AdvanceReport& report = step.report;
+  const double scale =
+      memory_->ledger.end_step(particles, step.forces, dt, step.touched, step.freedom, report);
+  // As a whole: the next substep would take a change of the velocity alone for an acceleration that goes on.
+  if (scale != 1) memory_->formula.scale(particles, scale, step.freedom);
+  report.sound = state_->sound;
+  if (step.touched) body_energy_.judge(particles, step.forces, *step.solids, report);
 }
 
 template class Implicit<float>;

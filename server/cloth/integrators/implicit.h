@@ -1,8 +1,10 @@
 #pragma once
 #include <optional>
+#include <span>
 
 #include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/body_energy.h"
+#include "cloth/integrators/change_search.h"
 #include "cloth/integrators/energy_ledger.h"
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/momentum_keeper.h"
@@ -35,6 +37,9 @@ namespace weft {
 /// Damped springs resist how much longer the substep makes them, by tau / h times their stiffness (backward
 /// Euler's rate, with BDF2 too: it takes energy from any motion).
 ///
+/// Cloths that lie on one another are stepped together: their systems are one that the contacts among them
+/// couple, solved in the same iterations, and one share of its change is taken by all.
+///
 /// What solves leave of the momentum of a cloth that nothing holds is given back (MomentumKeeper).
 ///
 /// What formula and solves take from a cloth's energy is given back where nothing but wind drives it, and
@@ -49,8 +54,28 @@ class Implicit final : public Integrator<Real> {
   Implicit(const char* name, const ImplicitParameters& parameters, bool second_order)
       : name_(name), parameters_(parameters), second_order_(second_order) {}
   const char* name() const override { return name_; }
+  /// One cloth's step, as Integrator::advance has it.
+  struct Step {
+    Implicit* method = nullptr;
+    Particles<Real>* particles = nullptr;
+    Forces<Real> forces;  ///< `layers` are the same of all that are stepped together
+    Contact<Real>* contact = nullptr;
+    std::vector<Solid>* solids = nullptr;
+    AdvanceReport report;
+
+    // While it is made:
+    Substep part;
+    Freedom unpushed = Freedom::none(), freedom = Freedom::none();  ///< `freedom`: as its last touch left it
+    bool touched = false;
+    bool rubs = false;  ///< in the substep: something firm takes its momentum
+    Freedom now = Freedom::none();
+  };
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         std::vector<Solid>& solids, double time, double dt) override;
+  /// The steps of cloths that touch one another; they are the parts of their layers, in order. Each takes as
+  /// many substeps as the one that needs most.
+  static void advance_together(std::span<Step> steps, double time, double dt);
+  Implicit* implicit() override { return this; }
   void restart() override {
     state_.reset();
     memory_.reset();
@@ -109,15 +134,20 @@ class Implicit final : public Integrator<Real> {
     std::vector<double> piece_mass;         ///< piece_masses; empty while it is whole
     double stretched_to_twice = 0;          ///< J, that all springs hold at their double length
     MotionScale<Real> motion;               ///< as the substep begins
-    SolveTarget target;                     ///< of the substep's solves
+    SolveTarget target;                     ///< of the substep's solves, of this cloth's part
     bool sound = true;                      ///< a move was found in every substep of the step
   };
 
-  void begin_step(const Particles<Real>& particles, Forces<Real>& forces, double h);
+  /// As long as a step is, s, so many substeps it takes.
+  int substeps_of(const Step& step, double dt) const;
+  void begin_step(Step& step, double dt);
   /// Lays out what depends on the springs for substeps of h seconds.
   void measure_sheet(const Sheet<Real>& sheet, const ClothDescription& cloth, const Field<Real>& mass,
                      double h);
-  void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces, double h);
+  /// Finds the solids that the cloth meets in the substep.
+  void meet_solids(Step& step, double time, double dt);
+  /// To be solved, with layers as the substep begins.
+  void begin_substep(Step& step);
   /// Linearises at the particles' state and assembles the system for the change of the move.
   void assemble(const Particles<Real>& particles, const Forces<Real>& forces);
   /// What the sheet's dampers go by: the nodes' moves so far, and the ways of pins.
@@ -132,20 +162,40 @@ class Implicit final : public Integrator<Real> {
   /// How much of each solve's change is taken (ChangeSearch).
   enum class Take { whole, searched };
 
-  /// Takes the particles from the substep's start to its end. Returns the linear iterations.
-  int find_move(Particles<Real>& particles, const Forces<Real>& forces, double h);
-  void guess_move(double h);
-  NewtonReport iterate(Particles<Real>& particles, const Forces<Real>& forces, Take take);
-  /// Lets go of nodes that the iteration has drawn off the side of a solid; true if there are any.
+  /// Takes the particles from the substep's start to its end.
+  static void find_moves(std::span<Step> steps);
+  /// Of the substep's solves.
+  static SolveTarget target_of(std::span<Step> steps);
+  void guess_move();
+  static NewtonReport iterate(std::span<Step> steps, SolveTarget& target, Take take);
+  static LinearSolveReport solve(std::span<Step> steps, const SolveTarget& target, bool corrected);
+  static ChangeReport change(std::span<Step> steps, double decrease, bool searched);
+  /// Takes the change of the iteration.
+  void move(Particles<Real>& particles);
+  /// What contact's linearisation was off by in the iteration, J.
+  struct ContactError {
+    double all = 0;      ///< of friction and forces
+    double begun = 0;    ///< of that, of friction where contact begins
+    double pulling = 0;  ///< of springs that were let go or taken back
+  };
+  ContactError contact_error();
+  /// Lets go of nodes that the iteration has drawn off the side of a solid, or holds those that it has put
+  /// into one; true if there are any.
   bool let_go(const Particles<Real>& particles);
   /// Holds nodes that the iteration has put into a solid; true if there are more of them than were held.
   bool hold_inside(const Particles<Real>& particles, const Springs<Real>& springs, double missed);
   /// Holds what this iteration would have pass through each other; true if there is any.
-  bool hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers);
-  /// Puts right what the solve has left of contact, and tells the ledger what contact took.
-  void resolve_contact(Particles<Real>& particles, Contact<Real>& contact, std::vector<Solid>& solids,
-                       const Substep& part, AdvanceReport& report);
-  void end_substep(Particles<Real>& particles, const Contact<Real>* contact);
+  static bool hold_meeting(std::span<Step> steps);
+  /// Puts right what the solve has left of contact, and tells the ledger what contact took. True if what
+  /// stands firm holds up what the cloth touches, which takes momentum.
+  bool resolve_contact(Step& step);
+  /// Contact and work, when the moves are found.
+  void settle_substep(Step& step);
+  static void keep_momentum(std::span<Step> steps);
+  void end_substep(Step& step);
+  void end_step(Step& step, double dt);
+  /// The nodes' moves so far, m.
+  static std::vector<kernels::Components<const Real>> moves_of(std::span<Step> steps);
 
   const char* name_;
   ImplicitParameters parameters_;
@@ -159,6 +209,7 @@ class Implicit final : public Integrator<Real> {
   };
   BodyEnergy<Real> body_energy_;
   Surroundings surroundings_;  ///< in the substep in hand
+  bool hung_ = false;          ///< in it, all that soft pins hold is bodies
 };
 
 extern template class Implicit<float>;

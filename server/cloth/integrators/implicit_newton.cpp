@@ -1,6 +1,7 @@
 /// Implicit's Newton iterations: one linearisation after the other, until the move is found.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "cloth/core/interrupt.h"
 #include "cloth/integrators/change_search.h"
@@ -46,94 +47,130 @@ constexpr double kWorkOfNewton = 10;
 }  // namespace
 
 template <class Real>
-int Implicit<Real>::find_move(Particles<Real>& particles, const Forces<Real>& forces, double h) {
-  State& s = *state_;
-  guess_move(h);
-  NewtonReport report = iterate(particles, forces, Take::whole);
-  if (report.brought_in <= 0) return report.linear_iterations;
-  memory_->formula.return_to_start(particles);
-  // Past motion says little about what follows: from here on as backward Euler, the next substep too.
-  memory_->formula.break_all();
-  memory_->formula.prepare();
-  guess_move(h);
-  const NewtonReport searched = iterate(particles, forces, Take::searched);
-  s.sound = s.sound && searched.found;
-  return report.linear_iterations + searched.linear_iterations;
+void Implicit<Real>::find_moves(std::span<Step> steps) {
+  for (Step& step : steps) step.method->guess_move();
+  SolveTarget target = target_of(steps);
+  const NewtonReport report = iterate(steps, target, Take::whole);
+  int iterations = report.linear_iterations;
+  if (report.brought_in > 0) {
+    for (Step& step : steps) {
+      StepFormula<Real>& formula = step.method->memory_->formula;
+      formula.return_to_start(*step.particles);
+      // Past motion says little about what follows: from here on as backward Euler, the next substep too.
+      formula.break_all();
+      formula.prepare();
+      step.method->guess_move();
+    }
+    const NewtonReport searched = iterate(steps, target, Take::searched);
+    iterations += searched.linear_iterations;
+    for (Step& step : steps) step.method->state_->sound = step.method->state_->sound && searched.found;
+  }
+  for (Step& step : steps) step.report.linear_iterations += iterations;
 }
 
 template <class Real>
-void Implicit<Real>::guess_move(double h) {
+SolveTarget Implicit<Real>::target_of(std::span<Step> steps) {
+  // Fine enough for each that moves, or for all where none does.
+  const bool rest = std::all_of(steps.begin(), steps.end(),
+                                [](const Step& step) { return step.method->state_->motion.near_rest(); });
+  std::optional<SolveTarget> finest;
+  for (const Step& step : steps) {
+    const State& s = *step.method->state_;
+    if (s.motion.near_rest() != rest) continue;
+    if (!finest) finest = s.target;
+    finest->least = std::min(finest->least, s.target.least);
+    finest->share = std::min(finest->share, s.target.share);
+    finest->most = std::min(finest->most, s.target.most);
+  }
+  return *finest;
+}
+
+template <class Real>
+void Implicit<Real>::guess_move() {
   // Every node goes on as it went.
   State& s = *state_;
   const std::size_t count = s.system.grid().size();
   clear(s.move, count);
   s.system.bodies().reset();
   kernels::scaled_difference<Real>(kernels::components(memory_->formula.start_velocity()), s.move,
-                                   static_cast<Real>(h), s.change, count);
+                                   static_cast<Real>(s.h), s.change, count);
 }
 
 template <class Real>
-auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& forces, Take take)
-    -> NewtonReport {
-  State& s = *state_;
-  const StepFormula<Real>& formula = memory_->formula;
-  const std::size_t count = particles.grid().size();
+auto Implicit<Real>::iterate(std::span<Step> steps, SolveTarget& target, Take take) -> NewtonReport {
+  LayerContacts<Real>* layers = steps[0].forces.layers;
   NewtonReport report;
-  const bool heap = forces.layered && !memory_->contacts.empty();
+  bool heap = false;  // of cloth on a solid
+  int iterations = 0, nodes = 0;
+  for (const Step& step : steps) {
+    const bool touches = !step.method->memory_->contacts.empty();
+    heap = heap || (step.forces.layered && touches);
+    iterations = std::max(iterations, step.method->parameters_.newton_iterations);
+    nodes += step.particles->grid().nodes();
+  }
   int heap_rounds = 0;
-  const kernels::Components<Real> recycled = memory_->correction.vector();
-  const kernels::Components<Real>* correction = &recycled;
-  for (int left = parameters_.newton_iterations; left > -kSpareSearches; --left) {
-    check_interrupt(kWorkOfNewton * static_cast<double>(count));
-    assemble(particles, forces);
-    const LinearSolveReport solved =
-        s.solver.solve(s.system, s.b, s.change, s.target, parameters_.linear_iterations, correction);
-    correction = nullptr;
-    s.target = {.least = solved.target};
-    const double decrease = solved.decrease + s.system.bodies().find_changes(s.change);
-    s.motion.found(decrease);
-    const bool stray =
-        left <= -kWholeSpareIterations && memory_->contacts.empty() && forces.layers == nullptr;
-    ChangeSearch<Real> search(forces, memory_->contacts, s.system, {s.position, s.move, s.change},
-                              s.stretched_to_twice);
-    const ChangeReport changed =
-        stray || take == Take::searched ? search.take_searched(decrease) : search.take_whole(decrease);
-    s.system.bodies().take_changes();
-    kernels::move_nodes<Real>(
-        formula.coefficients(),
-        {s.system.finest().free(), kernels::components(formula.start()), s.change, s.move,
-         kernels::components(particles.position), kernels::components(particles.velocity)},
-        count);
-    clear(s.change, count);
+  bool corrected = true;
+  for (int left = iterations; left > -kSpareSearches; --left) {
+    const LinearSolveReport solved = solve(steps, target, corrected);
+    corrected = false;
+    target = {.least = solved.target};
+    double decrease = solved.decrease;
+    bool free = layers == nullptr;  // it touches nothing
+    for (Step& step : steps) {
+      State& s = *step.method->state_;
+      decrease += s.system.bodies().find_changes(s.change);
+      free = free && step.method->memory_->contacts.empty();
+    }
+    const bool stray = left <= -kWholeSpareIterations && free;
+    for (Step& step : steps) step.method->state_->motion.found(decrease);
+    const ChangeReport changed = change(steps, decrease, stray || take == Take::searched);
+    double motion = 0, all_motion = 0, kinetic = 0;
+    ContactError contact;
+    bool fine = true;
+    for (Step& step : steps) {
+      Implicit& method = *step.method;
+      method.move(*step.particles);
+      const State& s = *method.state_;
+      all_motion += s.motion.energy();
+      motion += s.kept_stiffness * s.motion.energy();
+      fine = fine && s.motion.fine();
+      const ContactError of_step = method.contact_error();
+      contact.all += of_step.all;
+      contact.begun += of_step.begun;
+      contact.pulling += of_step.pulling;
+    }
     report.linear_iterations += solved.iterations;
     report.brought_in += solved.finite ? changed.brought_in : std::numeric_limits<double>::infinity();
-    const bool found = changed.taken || decrease <= kMissedShare * s.motion.energy();
+    const bool found = changed.taken || decrease <= kMissedShare * all_motion;
     report.found = report.found || (solved.finite && found);
-    double error = changed.error, pulling = 0, begun = 0;
-    if (!memory_->contacts.empty()) {
-      const auto misjudged = memory_->contacts.error(s.move, s.system.bodies());
-      error += misjudged.all;
-      begun = misjudged.begun;
-      pulling += memory_->contacts.release_pulling(s.move, s.system.bodies());
+    if (layers != nullptr) contact.pulling += layers->release_pulling(moves_of(steps));
+    const double error = std::max(changed.error + contact.all, contact.pulling);
+    const bool rough = changed.largest * static_cast<double>(nodes) > kRoughSpring * motion;
+    const double allowed = left > 1 || rough || fine
+                               ? solved.target
+                               : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
+    bool known = contact.begun <= solved.target || left <= 1 - kFrictionIterations;
+    if (!known) {
+      for (const Step& step : steps) kinetic += kinetic_energy(*step.particles);
+      known = contact.begun <= kRoughFriction * kinetic;
     }
-    pulling += s.system.bodies().misjudged();
-    if (forces.layers != nullptr) pulling += forces.layers->release_pulling(s.move);
-    error = std::max(error, pulling);
-    const double motion = s.kept_stiffness * s.motion.energy();
-    const bool rough = changed.largest * static_cast<double>(s.system.grid().nodes()) > kRoughSpring * motion;
-    const bool fine = left > 1 || rough || s.motion.fine();
-    const double allowed =
-        fine ? solved.target : std::max(solved.target, (heap ? kRoughHeap : kRough) * motion);
-    const bool known = begun <= solved.target || left <= 1 - kFrictionIterations ||
-                       begun <= kRoughFriction * kinetic_energy(particles);
     const bool done = report.brought_in <= 0 && error <= allowed && known && changed.struck <= kStruck;
     const bool last = left <= 1 - (stray && rough ? kSpareSearches : kSpareIterations);
-    if (!last && (!done || let_go(particles) || hold_inside(particles, forces.sheet->springs(), allowed)))
-      continue;
-    if (!forces.layered) break;
-    const bool meet = forces.layers != nullptr && hold_meeting(particles, *forces.layers);
-    const bool enter =
-        heap && heap_rounds++ < kHeapRounds && hold_inside(particles, forces.sheet->springs(), allowed);
+    const auto any = [&](const auto& of_step) {
+      bool found_any = false;
+      for (Step& step : steps) found_any = of_step(step) || found_any;
+      return found_any;
+    };
+    const auto enters = [&](Step& step) {
+      return step.method->hold_inside(*step.particles, step.forces.sheet->springs(), allowed);
+    };
+    const auto changes_hands = [&](Step& step) {
+      return step.method->let_go(*step.particles) || enters(step);
+    };
+    if (!last && (!done || any(changes_hands))) continue;
+    if (!steps[0].forces.layered) break;
+    const bool meet = layers != nullptr && hold_meeting(steps);
+    const bool enter = heap && heap_rounds++ < kHeapRounds && any(enters);
     if (!meet && !enter) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }
@@ -141,52 +178,79 @@ auto Implicit<Real>::iterate(Particles<Real>& particles, const Forces<Real>& for
 }
 
 template <class Real>
-bool Implicit<Real>::let_go(const Particles<Real>& particles) {
-  State& s = *state_;
-  return !memory_->contacts.empty() &&
-         memory_->contacts.let_go_of_slid_off(particles, *surroundings_.solids, s.move, s.system.bodies());
+LinearSolveReport Implicit<Real>::solve(std::span<Step> steps, const SolveTarget& target, bool corrected) {
+  LayerContacts<Real>* layers = steps[0].forces.layers;
+  SystemCouplings<Real> between;
+  std::vector<LayerSystem<Real>> systems;
+  int iterations = 0;
+  for (Step& step : steps) {
+    State& s = *step.method->state_;
+    check_interrupt(kWorkOfNewton * static_cast<double>(s.system.grid().size()));
+    step.method->assemble(*step.particles, step.forces);
+    systems.push_back({s.b, &s.system.couplings(), s.system.finest().diagonal(), s.move});
+    iterations = std::max(iterations, step.method->parameters_.linear_iterations);
+  }
+  if (layers != nullptr) layers->add_to(systems, between);
+  std::vector<kernels::Components<Real>> corrections;
+  for (Step& step : steps) corrections.push_back(step.method->memory_->correction.vector());
+  std::vector<SystemPart<Real>> parts;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    State& s = *steps[k].method->state_;
+    if (steps[k].forces.bag != nullptr) steps[k].forces.bag->average(s.b);
+    s.system.prepare();
+    parts.push_back({&s.solver, &s.system, s.b, s.change, corrected ? &corrections[k] : nullptr});
+  }
+  return ConjugateGradients<Real>::solve_together(parts, between, target, iterations);
 }
 
 template <class Real>
-bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs<Real>& springs,
-                                 double missed) {
-  const auto& [contact, solids, part] = surroundings_;
-  if (contact == nullptr) return false;
-  State& s = *state_;
-  AttachedBodies<Real>& bodies = s.system.bodies();
-  const std::vector<Solid> bent =
-      bodies.empty() ? std::vector<Solid>{} : memory_->contacts.bent(*solids, bodies);
-  const std::vector<Solid>& now = bodies.empty() ? *solids : bent;
-  if (!memory_->contacts.hold_inside(contact->inside(particles, now, part),
-                                     contact->passed(particles, memory_->formula.start(), now, part),
-                                     particles, now, s.move, bodies, springs.node_stiffness(), missed))
-    return false;
-  if (contact->body_touches() != nullptr) memory_->contacts.join(*contact->body_touches(), *solids, bodies);
-  memory_->contacts.for_each_broken([&](std::size_t node) { memory_->formula.break_motion(node); });
-  memory_->formula.prepare();
-  return true;
+ChangeReport Implicit<Real>::change(std::span<Step> steps, double decrease, bool searched) {
+  std::vector<ChangedPart<Real>> parts;
+  for (Step& step : steps) {
+    State& s = *step.method->state_;
+    parts.push_back({step.forces, step.method->memory_->contacts, s.system, s.position, s.move, s.change,
+                     s.stretched_to_twice});
+  }
+  ChangeSearch<Real> search(std::move(parts), steps[0].forces.layers);
+  return searched ? search.take_searched(decrease) : search.take_whole(decrease);
 }
 
 template <class Real>
-bool Implicit<Real>::hold_meeting(const Particles<Real>& particles, LayerContacts<Real>& layers) {
+void Implicit<Real>::move(Particles<Real>& particles) {
   State& s = *state_;
-  if (!layers.hold_meeting(kernels::components(particles.position), s.move)) return false;
-  layers.for_each_node([&](std::size_t node) { memory_->formula.break_motion(node); });
-  memory_->formula.prepare();
-  return true;
+  const StepFormula<Real>& formula = memory_->formula;
+  const std::size_t count = particles.grid().size();
+  s.system.bodies().take_changes();
+  kernels::move_nodes<Real>(
+      formula.coefficients(),
+      {s.system.finest().free(), kernels::components(formula.start()), s.change, s.move,
+       kernels::components(particles.position), kernels::components(particles.velocity)},
+      count);
+  clear(s.change, count);
 }
 
-template int Implicit<float>::find_move(Particles<float>&, const Forces<float>&, double);
-template void Implicit<float>::guess_move(double);
-template auto Implicit<float>::iterate(Particles<float>&, const Forces<float>&, Take) -> NewtonReport;
-template bool Implicit<float>::let_go(const Particles<float>&);
-template bool Implicit<float>::hold_inside(const Particles<float>&, const Springs<float>&, double);
-template bool Implicit<float>::hold_meeting(const Particles<float>&, LayerContacts<float>&);
-template int Implicit<double>::find_move(Particles<double>&, const Forces<double>&, double);
-template void Implicit<double>::guess_move(double);
-template auto Implicit<double>::iterate(Particles<double>&, const Forces<double>&, Take) -> NewtonReport;
-template bool Implicit<double>::let_go(const Particles<double>&);
-template bool Implicit<double>::hold_inside(const Particles<double>&, const Springs<double>&, double);
-template bool Implicit<double>::hold_meeting(const Particles<double>&, LayerContacts<double>&);
+template <class Real>
+std::vector<kernels::Components<const Real>> Implicit<Real>::moves_of(std::span<Step> steps) {
+  std::vector<kernels::Components<const Real>> moves;
+  for (const Step& step : steps) moves.push_back(step.method->state_->move);
+  return moves;
+}
+
+template void Implicit<float>::find_moves(std::span<Step>);
+template SolveTarget Implicit<float>::target_of(std::span<Step>);
+template void Implicit<float>::guess_move();
+template auto Implicit<float>::iterate(std::span<Step>, SolveTarget&, Take) -> NewtonReport;
+template LinearSolveReport Implicit<float>::solve(std::span<Step>, const SolveTarget&, bool);
+template ChangeReport Implicit<float>::change(std::span<Step>, double, bool);
+template void Implicit<float>::move(Particles<float>&);
+template auto Implicit<float>::moves_of(std::span<Step>) -> std::vector<kernels::Components<const float>>;
+template void Implicit<double>::find_moves(std::span<Step>);
+template SolveTarget Implicit<double>::target_of(std::span<Step>);
+template void Implicit<double>::guess_move();
+template auto Implicit<double>::iterate(std::span<Step>, SolveTarget&, Take) -> NewtonReport;
+template LinearSolveReport Implicit<double>::solve(std::span<Step>, const SolveTarget&, bool);
+template ChangeReport Implicit<double>::change(std::span<Step>, double, bool);
+template void Implicit<double>::move(Particles<double>&);
+template auto Implicit<double>::moves_of(std::span<Step>) -> std::vector<kernels::Components<const double>>;
 
 }  // namespace weft

@@ -36,6 +36,9 @@ struct AdvanceReport {
   }
 };
 
+template <class Real>
+class Implicit;
+
 /// Advances one whole cloth by one step. One interface for explicit, implicit and projective methods. It
 /// keeps work arrays; what it remembers of earlier steps, if anything, restart() makes it forget.
 template <class Real>
@@ -47,6 +50,8 @@ class Integrator {
   /// and those that yield are left as the cloth moves them.
   virtual AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                                 std::vector<Solid>& solids, double time, double dt) = 0;
+  /// Itself if it can step several cloths together.
+  virtual Implicit<Real>* implicit() { return nullptr; }
   /// The particles were changed from outside (another level, a snapshot): the next step begins anew.
   virtual void restart() {}
   /// Springs or plate are of another stiffness: what was laid out for them is made anew, and the next step

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/integrators/body_energy.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
@@ -63,8 +64,8 @@ auto MomentumKeeper<Real>::motion_of(const Particles<Real>& particles) -> Motion
 
 template <class Real>
 bool MomentumKeeper<Real>::applies(const Particles<Real>& particles, const Forces<Real>& forces) {
-  return forces.layers == nullptr && !forces.holds_gas() && forces.sheet->torn() == nullptr &&
-         !is_held(particles);
+  return (forces.layers == nullptr || !forces.layers->meets_outsiders()) && !forces.holds_gas() &&
+         forces.sheet->torn() == nullptr && !is_held(particles);
 }
 
 template <class Real>
@@ -84,29 +85,57 @@ bool MomentumKeeper<Real>::touched_by_body(const std::vector<Solid>& solids, con
 }
 
 template <class Real>
-auto MomentumKeeper<Real>::input(const Particles<Real>& particles, const Forces<Real>& forces,
-                                 const std::vector<Solid>& solids, const VectorField<Real>& start) -> Input {
+void MomentumKeeper<Real>::Motion::join(const Motion& other) {
+  known = known && other.known;
+  const Motion one = *this;
+  mass = one.mass + other.mass;
+  centre = (one.mass * one.centre + other.mass * other.centre) / mass;
+  momentum = one.momentum + other.momentum;
+  const Vec3 mean = momentum / mass;
+  spin.setZero();
+  kinetic = 0;
+  for (const Motion* each : {&one, &other}) {
+    const Vec3 beside = each->momentum - each->mass * mean;
+    spin += each->spin + (each->centre - centre).cross(beside);
+    kinetic += each->kinetic + beside.squaredNorm() / (2 * each->mass);
+  }
+}
+
+template <class Real>
+void MomentumKeeper<Real>::Input::operator+=(const Input& other) {
+  force += other.force;
+  torque += other.torque;
+  work += other.work;
+  moved += other.moved;
+  momentum += other.momentum;
+  angular_momentum += other.angular_momentum;
+  energy += other.energy;
+}
+
+template <class Real>
+auto MomentumKeeper<Real>::input(const Member& member, const Vec3& centre) -> Input {
+  const Particles<Real>& particles = *member.particles;
+  const Forces<Real>& forces = *member.forces;
   const Grid& grid = particles.grid();
   if (force_.grid() != grid) force_ = VectorField<Real>(grid);
   forces.sum_effects(particles, force_, hung_ ? forces.soft_pins : nullptr);
   Input input;
-  Vec3 moved(0, 0, 0);
   const auto each_force = kernels::components(std::as_const(force_));
-  const auto from = kernels::components(start), to = kernels::components(particles.position);
+  const auto from = kernels::components(*member.start), to = kernels::components(member.particles->position);
   for_each_node(grid, [&](std::size_t i, int r, int c) {
     const Vec3 f = at(each_force, i), way = at<Real>(to, i) - at(from, i);
     input.force += f;
-    input.torque += (particles.position_at(r, c) - now_.centre).cross(f);
+    input.torque += (particles.position_at(r, c) - centre).cross(f);
     input.work += f.dot(way);
-    moved += double(particles.mass.at(r, c)) * way;
+    input.moved += double(particles.mass.at(r, c)) * way;
   });
-  input.work -= input.force.dot(moved) / now_.mass;
+  const std::vector<Solid>& solids = *member.solids;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Solid &was = solids_[i], &is = solids[i];
     if (!is.yields() || (was.velocity == is.velocity && was.spin == is.spin)) continue;
     input.momentum -= (is.velocity - was.velocity) / is.inverse_mass;
     input.angular_momentum -=
-        angular_momentum(is, is.velocity - was.velocity, is.spin - was.spin, particles.place, now_.centre);
+        angular_momentum(is, is.velocity - was.velocity, is.spin - was.spin, particles.place, centre);
     input.energy += kinetic_energy(was) - kinetic_energy(is);
   }
   return input;
@@ -124,11 +153,15 @@ bool MomentumKeeper<Real>::all_by_bdf2(const std::vector<Solid>& solids,
 }
 
 template <class Real>
-Freedom::Screw MomentumKeeper<Real>::response(const Particles<Real>& particles, const Forces<Real>& forces,
-                                              const Motion& end, const Eigen::Matrix3d& inertia, double h,
+Freedom::Screw MomentumKeeper<Real>::response(std::span<const Member> members, const Motion& end,
+                                              const Eigen::Matrix3d& inertia, double h,
                                               const Freedom::Screw& momenta) {
-  Eigen::Matrix<double, 6, 6> system =
-      h * damping_.matrix(particles, forces, end.centre, hung_ ? forces.soft_pins : nullptr);
+  Eigen::Matrix<double, 6, 6> system = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const Member& member : members) {
+    MomentumKeeper& keeper = *member.keeper;
+    system += h * keeper.damping_.matrix(*member.particles, *member.forces, end.centre,
+                                         keeper.hung_ ? member.forces->soft_pins : nullptr);
+  }
   system.topLeftCorner<3, 3>().diagonal().array() += end.mass;
   system.bottomRightCorner<3, 3>() += inertia;
   // Nodes in one line do not turn about it.
@@ -136,31 +169,47 @@ Freedom::Screw MomentumKeeper<Real>::response(const Particles<Real>& particles, 
 }
 
 template <class Real>
-double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Forces<Real>& forces,
-                                         const std::vector<Solid>& solids, const VectorField<Real>& start,
-                                         const Contact<Real>* contact, const Freedom& freedom, bool rubs,
-                                         const Field<Real>* second_order, double h) {
-  if (!now_.known) return 1;
-  if (rubs || freedom.is_none()) {
-    restart();
+double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double h) {
+  const Member& first = members[0];
+  const bool alone = members.size() == 1;
+  Motion now = first.keeper->now_, before = first.keeper->before_, end = motion_of(*first.particles);
+  bool known = now.known, free = true, by_bdf2 = true;
+  for (const Member& member : members) {
+    if (&member != &first) {
+      now.join(member.keeper->now_);
+      before.join(member.keeper->before_);
+      end.join(motion_of(*member.particles));
+    }
+    known = known && member.keeper->now_.known;
+    free = free && !member.rubs && !member.freedom->is_none() && (alone || member.freedom->is_all());
+    by_bdf2 = by_bdf2 && !touched_by_body(*member.solids, member.contact) &&
+              member.keeper->all_by_bdf2(*member.solids, member.second_order);
+  }
+  if (!known) return 1;
+  const auto restart_all = [&] {
+    for (const Member& member : members) member.keeper->restart();
+  };
+  if (!free) {
+    restart_all();
     return 1;
   }
-  const Input given = input(particles, forces, solids, start);
-  const Vec3 point = now_.centre;
-  Vec3 momentum = now_.momentum + h * given.force + given.momentum;
-  Vec3 angular = now_.about(point) + h * given.torque + given.angular_momentum;
-  const bool by_bdf2 = !touched_by_body(solids, contact) && all_by_bdf2(solids, second_order);
+  const Vec3 point = now.centre;
+  Input given;
+  for (const Member& member : members) given += member.keeper->input(member, point);
+  Vec3 momentum = now.momentum + h * given.force + given.momentum;
+  Vec3 angular = now.about(point) + h * given.torque + given.angular_momentum;
   if (by_bdf2) {
-    momentum = (4 * now_.momentum - before_.momentum + 2 * h * given.force) / 3;
-    angular = (4 * now_.about(point) - before_.about(point) + 2 * h * given.torque) / 3;
+    momentum = (4 * now.momentum - before.momentum + 2 * h * given.force) / 3;
+    angular = (4 * now.about(point) - before.about(point) + 2 * h * given.torque) / 3;
   }
 
-  const Motion end = motion_of(particles);
   const Vec3 missing = momentum - end.momentum;
   const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
-  const Eigen::Matrix3d inertia = inertia_about(end.centre, particles);
-  Freedom::Screw motion = response(particles, forces, end, inertia, by_bdf2 ? 2 * h / 3 : h,
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const Member& member : members) inertia += inertia_about(end.centre, *member.particles);
+  Freedom::Screw motion = response(members, end, inertia, by_bdf2 ? 2 * h / 3 : h,
                                    (Freedom::Screw() << missing, missing_spin).finished());
+  const Freedom& freedom = *first.freedom;  // of several: all
   if (!freedom.is_all()) {
     Freedom::Screw momenta;
     momenta << end.mass * motion.head<3>(), inertia * motion.tail<3>();
@@ -172,20 +221,29 @@ double MomentumKeeper<Real>::end_substep(Particles<Real>& particles, const Force
   double excess = 0;  // what the turning needs more than there is, J
   const double linear = end.spin.dot(turn), square = turn.dot(inertia * turn) / 2;
   if (linear + square > 0) {
-    const Vec3 mean = (now_.momentum + momentum) / (2 * now_.mass);  // the centre's velocity
-    const double had =
-        now_.kinetic + forces.sheet->energy(start) + given.work + given.energy - mean.dot(given.momentum);
-    const double left = had - end.kinetic - forces.sheet->energy(particles.position);
-    const double share = share_within(left + motion_energy(particles, freedom).inner, linear, square);
+    const Vec3 mean = (now.momentum + momentum) / (2 * now.mass);  // the centre's velocity
+    const double work = given.work - given.force.dot(given.moved) / now.mass;
+    double had = now.kinetic, left = -end.kinetic;
+    for (const Member& member : members) {
+      const Sheet<Real>& sheet = *member.forces->sheet;
+      had += sheet.energy(*member.start);
+      left -= sheet.energy(member.particles->position);
+    }
+    left += had + work + given.energy - mean.dot(given.momentum);
+    // Of several, whose contact takes energy, none is taken from what they do beside one another.
+    const double inner = alone ? motion_energy(*first.particles, freedom).inner : 0;
+    const double share = share_within(left + inner, linear, square);
     turn *= share;
-    excess = share * (linear + share * square) - std::max(0.0, left);
+    excess = alone ? share * (linear + share * square) - std::max(0.0, left) : 0;
   }
-  const auto velocity = kernels::components(particles.velocity);
-  for_each_node(particles.grid(), [&](std::size_t i, int r, int c) {
-    add(velocity, i, Vec3(shift + turn.cross(particles.position_at(r, c) - end.centre)));
-  });
-  if (!freedom.is_all()) restart();  // a push breaks what BDF2 goes on from
-  return take_from_motion(particles, excess, freedom);
+  for (const Member& member : members) {
+    const auto velocity = kernels::components(member.particles->velocity);
+    for_each_node(member.particles->grid(), [&](std::size_t i, int r, int c) {
+      add(velocity, i, Vec3(shift + turn.cross(member.particles->position_at(r, c) - end.centre)));
+    });
+  }
+  if (!freedom.is_all()) restart_all();  // a push breaks what BDF2 goes on from
+  return alone ? take_from_motion(*first.particles, excess, freedom) : 1;
 }
 
 template class MomentumKeeper<float>;

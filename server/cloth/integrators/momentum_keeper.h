@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "cloth/integrators/integrator.h"
 #include "cloth/integrators/rigid_damping.h"
 #include "cloth/sheet/freedom.h"
@@ -20,8 +22,11 @@ namespace weft {
 /// digit: then it is the momenta of the rigid motions against which nothing pushes that are given back, as
 /// those of a sheet that slides on a smooth floor.
 ///
-/// It leaves alone what rubs on what stands firm, torn sheets, whose pieces do not move as one, and what
-/// other cloths or gas press on.
+/// Of cloths that are stepped together it is what they have together that is given back: what they push one
+/// another with sums to nothing, and their motion beside one another is left as the solve has found it.
+///
+/// It leaves alone what rubs on what stands firm, torn sheets, whose pieces do not move as one, and what gas
+/// or cloth that is stepped apart presses on.
 template <class Real>
 class MomentumKeeper {
  public:
@@ -29,13 +34,23 @@ class MomentumKeeper {
   /// their pull from the same solve.
   void begin_substep(const Particles<Real>& particles, const Forces<Real>& forces,
                      const std::vector<Solid>& solids, bool hung = false);
-  /// As it ends; the nodes have come from `start`. `second_order` tells, node by node, if it was stepped by
-  /// BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to touch. `freedom`
-  /// is what firm solids leave it; `rubs`: one of them has friction. Returns by what the motion beside the
+  /// A cloth as a substep ends. Its nodes have come from `start`. `second_order` tells, node by node, if it
+  /// was stepped by BDF2; nullptr: none was. `contact` tells what it touched; nullptr: there is nothing to
+  /// touch. `freedom` is what firm solids leave it; `rubs`: one of them has friction.
+  struct Member {
+    MomentumKeeper* keeper;
+    Particles<Real>* particles;
+    const Forces<Real>* forces;
+    const std::vector<Solid>* solids;
+    const VectorField<Real>* start;
+    const Contact<Real>* contact;
+    const Freedom* freedom;
+    bool rubs;
+    const Field<Real>* second_order;
+  };
+  /// As it ends, after h seconds, of those that are stepped together. Returns by what the motion beside the
   /// free rigid one was multiplied (scale_motion).
-  double end_substep(Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
-                     const VectorField<Real>& start, const Contact<Real>* contact, const Freedom& freedom,
-                     bool rubs, const Field<Real>* second_order, double h);
+  static double end_substep(std::span<const Member> members, double h);
   /// What was before says nothing about what follows.
   void restart() { now_ = before_ = {}; }
 
@@ -46,7 +61,7 @@ class MomentumKeeper {
   }
 
  private:
-  /// Of the cloth alone.
+  /// Of cloth alone.
   struct Motion {
     bool known = false;
     double mass = 0;         ///< kg
@@ -54,32 +69,35 @@ class MomentumKeeper {
     Vec3 momentum{0, 0, 0};  ///< N s
     Vec3 spin{0, 0, 0};      ///< angular momentum about the centre, N m s
     double kinetic = 0;      ///< energy beside the centre's, J
-    /// Angular momentum about a point.
     template <class Archive>
     void serialize(Archive& archive) {
       archive(known, mass, centre, momentum, spin, kinetic);
     }
+    /// Angular momentum about a point.
     Vec3 about(const Vec3& point) const { return spin + (centre - point).cross(momentum); }
+    /// With another cloth's; unknown if one of them is.
+    void join(const Motion& other);
   };
   /// What comes from outside in a substep.
   struct Input {
-    Vec3 force{0, 0, 0};   ///< of the effects, N
-    Vec3 torque{0, 0, 0};  ///< of the effects, about the centre as the substep began, N m
-    double work = 0;       ///< of the effects beside the centre, J
-    Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};  ///< that bodies gave, N s; about that centre, N m s
+    Vec3 force{0, 0, 0};                                ///< of the effects, N
+    Vec3 torque{0, 0, 0};                               ///< of the effects, about `centre`, N m
+    double work = 0;                                    ///< of the effects, J
+    Vec3 moved{0, 0, 0};                                ///< the nodes' ways, each by its mass, kg m
+    Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};  ///< that bodies gave, N s; about `centre`, N m s
     double energy = 0;                                  ///< that they lost, J
+    void operator+=(const Input& other);
   };
   static Motion motion_of(const Particles<Real>& particles);
   static bool applies(const Particles<Real>& particles, const Forces<Real>& forces);
   /// A solid that yields touches the cloth.
   static bool touched_by_body(const std::vector<Solid>& solids, const Contact<Real>* contact);
-  Input input(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
-              const VectorField<Real>& start);
+  Input input(const Member& member, const Vec3& centre);
   /// The rigid motion that is missing where these momenta are, N s and N m s about the centre: what damps it
   /// in `h`, s, takes its part of them. Without, what wind that hardly turned within a solve has not yet
   /// given would be given at one blow, and speed a light cloth up beyond any bound.
-  Freedom::Screw response(const Particles<Real>& particles, const Forces<Real>& forces, const Motion& end,
-                          const Eigen::Matrix3d& inertia, double h, const Freedom::Screw& momenta);
+  static Freedom::Screw response(std::span<const Member> members, const Motion& end,
+                                 const Eigen::Matrix3d& inertia, double h, const Freedom::Screw& momenta);
   bool all_by_bdf2(const std::vector<Solid>& solids, const Field<Real>* second_order) const;
 
   Motion now_, before_;        ///< as the substep begins, and as the one before began

@@ -37,54 +37,113 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
                                                   kernels::Components<Real> x, const SolveTarget& target,
                                                   int max_iterations,
                                                   const kernels::Components<Real>* correction) {
-  const Grid& grid = system.grid();
-  kernels::Components<Real> p = vectors_.vector(0), q = vectors_.vector(3), r = vectors_.vector(6);
+  const SystemPart<Real> part{this, &system, b, x, correction};
+  return solve_together({&part, 1}, {}, target, max_iterations);
+}
+
+template <class Real>
+LinearSolveReport ConjugateGradients<Real>::solve_together(std::span<const SystemPart<Real>> parts,
+                                                           const SystemCouplings<Real>& couplings,
+                                                           const SolveTarget& target, int max_iterations) {
+  using Vectors = std::vector<kernels::Components<Real>>;  // one a part
+  Vectors x, p, q, r;
+  std::size_t nodes = 0;
+  for (const SystemPart<Real>& part : parts) {
+    NodeArrays<Real>& vectors = part.solver->vectors_;
+    x.push_back(part.x);
+    p.push_back(vectors.vector(0));
+    q.push_back(vectors.vector(3));
+    r.push_back(vectors.vector(6));
+    nodes += part.system->grid().size();
+  }
+  const bool corrected = parts[0].correction != nullptr;
+  const auto sum = [&](const auto& of_part) {
+    double all = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) all += of_part(k, parts[k].system->grid());
+    return all;
+  };
+  const auto for_each_stretch = [&](const auto& work) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      parts[k].solver->bands_.for_each_stretch(
+          [&](std::size_t first, std::size_t count) { work(k, first, count); });
+    }
+  };
+  const auto multiply = [&](const Vectors& from, const Vectors& to) {
+    double product =
+        sum([&](std::size_t k, const Grid&) { return parts[k].system->multiply(from[k], to[k]); });
+    if (!couplings.empty()) product += couplings.multiply(from, to);
+    return product;
+  };
+  const auto dot = [&](const Vectors& a, const Vectors& b) {
+    return sum([&](std::size_t k, const Grid& grid) { return kernels::dot<Real>(a[k], b[k], grid); });
+  };
+
   LinearSolveReport report;
   // The multiple of the guess that lies nearest in the energy norm: never farther than zero is.
-  const double size = system.multiply(x, q);
-  const double along = size > 0 ? kernels::dot<Real>(b, x, grid) : 0.0;
+  const double size = multiply(x, q);
+  const double along =
+      size > 0
+          ? sum([&](std::size_t k, const Grid& grid) { return kernels::dot<Real>(parts[k].b, x[k], grid); })
+          : 0.0;
   const double scale = size > 0 ? along / size : 0.0;
   report.decrease = scale * along / 2;
-  if (correction != nullptr) {
+  if (corrected) {
     // The part of it that is A-orthogonal to the guess: then each has its own best multiple.
-    const double shared = size > 0 ? kernels::dot<Real>(*correction, q, grid) / size : 0.0;
-    copy<Real>(*correction, p, grid.size());
-    kernels::add_scaled(p, x, static_cast<Real>(-shared), grid.size());
+    const double shared = size > 0 ? sum([&](std::size_t k, const Grid& grid) {
+                                       return kernels::dot<Real>(*parts[k].correction, q[k], grid);
+                                     }) / size
+                                   : 0.0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const std::size_t count = parts[k].system->grid().size();
+      copy<Real>(*parts[k].correction, p[k], count);
+      kernels::add_scaled(p[k], x[k], static_cast<Real>(-shared), count);
+    }
   }
-  bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
-    kernels::scale_guess<Real>(x + first, b + first, q + first, r + first, static_cast<Real>(scale), count);
+  for_each_stretch([&](std::size_t k, std::size_t first, std::size_t count) {
+    kernels::scale_guess<Real>(x[k] + first, parts[k].b + first, q[k] + first, r[k] + first,
+                               static_cast<Real>(scale), count);
   });
-  if (correction != nullptr) {
-    copy<Real>(x, *correction, grid.size());
-    const double curvature = system.multiply(p, q), found = kernels::dot<Real>(r, p, grid);
+  if (corrected) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      copy<Real>(x[k], *parts[k].correction, parts[k].system->grid().size());
+    }
+    const double curvature = multiply(p, q), found = dot(r, p);
     if (curvature > 0) {
-      kernels::advance_along<Real>(x, p, r, q, static_cast<Real>(found / curvature), grid.size());
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        kernels::advance_along<Real>(x[k], p[k], r[k], q[k], static_cast<Real>(found / curvature),
+                                     parts[k].system->grid().size());
+      }
       report.decrease += found * found / curvature / 2;
     }
   }
   // Rounding may make of the cycle what is not positive definite: then, for the rest of the solve, without
   // it.
   bool cycles = true;
-  const auto precondition = [&](kernels::Components<Real> z) {
+  const auto precondition = [&](const Vectors& z) {
     if (cycles) {
-      const double found = system.precondition(r, z);
-      if (found > 0) return found;
+      bool positive = true;
+      const double found = sum([&](std::size_t k, const Grid&) {
+        const double of_part = parts[k].system->precondition(r[k], z[k]);
+        positive = positive && !(of_part < 0);
+        return of_part;
+      });
+      if (positive && found > 0) return found;
       cycles = false;
     }
-    copy<Real>(r, z, grid.size());
-    return kernels::dot<Real>(r, r, grid);
+    for (std::size_t k = 0; k < parts.size(); ++k) copy<Real>(r[k], z[k], parts[k].system->grid().size());
+    return dot(r, r);
   };
   double rz = precondition(p);
   report.target = std::max(target.least, std::min(target.share * (2 * report.decrease + rz), target.most));
   ErrorEstimate error;
   while (rz > 0 && report.iterations < max_iterations) {
-    check_interrupt(kWorkOfCycle * static_cast<double>(grid.size()));
-    const double curvature = system.multiply(p, q);
+    check_interrupt(kWorkOfCycle * static_cast<double>(nodes));
+    const double curvature = multiply(p, q);
     if (!(curvature > 0)) break;
     const double step = rz / curvature;
-    bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
-      kernels::advance_along<Real>(x + first, p + first, r + first, q + first, static_cast<Real>(step),
-                                   count);
+    for_each_stretch([&](std::size_t k, std::size_t first, std::size_t count) {
+      kernels::advance_along<Real>(x[k] + first, p[k] + first, r[k] + first, q[k] + first,
+                                   static_cast<Real>(step), count);
     });
     ++report.iterations;
     report.decrease += step * rz / 2;
@@ -96,15 +155,18 @@ LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kerne
     const bool cycled = cycles;
     const double next = precondition(q);
     const double turned = cycled == cycles ? next / rz : 0;  // directions of the cycle are none without it
-    bands_.for_each_stretch([&](std::size_t first, std::size_t count) {
-      kernels::turn_towards<Real>(p + first, q + first, static_cast<Real>(turned), count);
+    for_each_stretch([&](std::size_t k, std::size_t first, std::size_t count) {
+      kernels::turn_towards<Real>(p[k] + first, q[k] + first, static_cast<Real>(turned), count);
     });
     rz = next;
   }
   report.converged = report.converged || rz == 0;
   report.finite = std::isfinite(rz);
-  if (correction != nullptr) {
-    kernels::scaled_difference<Real>(x, *correction, Real(1), *correction, grid.size());
+  if (corrected) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      kernels::scaled_difference<Real>(x[k], *parts[k].correction, Real(1), *parts[k].correction,
+                                       parts[k].system->grid().size());
+    }
   }
   return report;
 }

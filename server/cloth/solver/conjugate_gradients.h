@@ -1,5 +1,8 @@
 #pragma once
+#include <span>
+
 #include "cloth/solver/multigrid.h"
+#include "cloth/solver/system_couplings.h"
 
 namespace weft {
 
@@ -38,6 +41,19 @@ class ErrorEstimate {
   int count_ = 0;
 };
 
+template <class Real>
+class ConjugateGradients;
+
+/// One cloth's part of a system that several are solved in together.
+template <class Real>
+struct SystemPart {
+  ConjugateGradients<Real>* solver;
+  Multigrid<Real>* system;
+  kernels::Components<const Real> b;
+  kernels::Components<Real> x;
+  const kernels::Components<Real>* correction = nullptr;
+};
+
 /// Conjugate gradients on Multigrid's system (Shewchuk, An Introduction to the Conjugate Gradient Method,
 /// 1994), preconditioned by its cycle. Keeps its vectors from one call to the next.
 template <class Real>
@@ -57,6 +73,11 @@ class ConjugateGradients {
   LinearSolveReport solve(Multigrid<Real>& system, kernels::Components<const Real> b,
                           kernels::Components<Real> x, const SolveTarget& target, int max_iterations,
                           const kernels::Components<Real>* correction = nullptr);
+  /// The same of several systems, each with a solver of its own, that `couplings` join to one; all have a
+  /// correction, or none.
+  static LinearSolveReport solve_together(std::span<const SystemPart<Real>> parts,
+                                          const SystemCouplings<Real>& couplings, const SolveTarget& target,
+                                          int max_iterations);
 
  private:
   Bands bands_;

@@ -98,10 +98,11 @@ class Cloth {
   /// out of these solids (lift_pins.h), and held there.
   void lift_new_pins(const std::vector<Solid>& solids);
   void disturb() { disturbed_ = true; }
-  /// Where layers of cloth touch; kept by the caller, nullptr: nobody looks.
-  void set_layers(LayerContacts<Real>* layers) {
+  /// Where layers of cloth touch, of which the cloth is a part; kept by the caller. nullptr: nobody looks.
+  void set_layers(LayerContacts<Real>* layers, std::size_t part) {
     layers_ = layers;
-    sleep_.set_company(Sleep::Company::none);
+    layer_part_ = part;
+    if (layers == nullptr) sleep_.set_company(Sleep::Company::none);
   }
   /// At a step's end, of dt seconds: nodes that someone has moved since, from `before`, into a solid or
   /// through one are brought back. Returns what met one, and counts it among touches().
@@ -156,6 +157,14 @@ class Cloth {
   /// with push_balls(). Several cloths may do it at the same time, each with its share of a ball that they
   /// all touch (Colliders::share).
   AdvanceReport advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
+  /// The same in two: true if the step is made, then of those that are stepped together, whose methods are
+  /// implicit if they are several.
+  bool begin_advance(const std::vector<Solid>& solids, const Air& air, double time, double dt);
+  static std::vector<AdvanceReport> advance_together(std::span<Cloth* const> cloths,
+                                                     const std::vector<Solid>& solids, const Air& air,
+                                                     double time, double dt);
+  /// Of a step that is not made.
+  AdvanceReport left_alone() const { return {.nodes_in_contact = nodes_in_contact_}; }
   /// Steps from now on may take at most so much work (interrupt.h); one that would is not made: the cloth
   /// stands still as if no way of stepping it helped. WorkLimit::kNone unless set.
   void set_most_work(double most) { most_work_ = most; }
@@ -206,9 +215,16 @@ class Cloth {
   void set_pins(const std::vector<Vec3>& pulls);
   /// Of the cloth as it is, beside moving pins and layers.
   Forces<Real> forces(const EffectContext& context);
-  /// advance(), until a state is good.
-  AdvanceReport advance_soundly(const std::vector<Solid>& solids, const Air& air, double time, double dt);
-  AdvanceReport attempt(const Air& air, double time, double dt);
+  /// advance_together(), until all states are good.
+  static std::vector<AdvanceReport> advance_soundly(std::span<Cloth* const> cloths,
+                                                    const std::vector<Solid>& solids, const Air& air,
+                                                    double time, double dt);
+  static std::vector<AdvanceReport> attempt(std::span<Cloth* const> cloths, const Air& air, double time,
+                                            double dt);
+  /// In the step that begins.
+  Forces<Real> all_forces(const Air& air, double time, double dt);
+  Contact<Real>* contact_in_step();
+  void end_advance(const std::vector<Solid>& solids, double time, double dt, AdvanceReport& report);
   /// Whether anything may do work on it in a step of dt seconds: air or a hand, pins or solids that move,
   /// gas, other cloths.
   Drive drive(const Forces<Real>& forces, double dt) const;
@@ -267,6 +283,7 @@ class Cloth {
   bool disturbed_ = true;      ///< since the last step something has been changed that may give it energy
   int nodes_in_contact_ = 0;   ///< at the end of the last step that was made
   LayerContacts<Real>* layers_ = nullptr;
+  std::size_t layer_part_ = 0;
   std::unique_ptr<Contact<Real>> contact_;  ///< made when the scene first has a solid
   std::unique_ptr<NodeAir> node_air_;       ///< made when the wind first differs from node to node
   ContactCounters earlier_contacts_;        ///< at the levels left behind

@@ -63,7 +63,6 @@ void ClothContact<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   nodes_ = {};
   gaps_.clear();
   cells_.clear();
-  contacts_.clear();
   double least = parameters_.thickness;
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
@@ -82,11 +81,13 @@ void ClothContact<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   pressed_.assign(count, 0);
   on_solid_.assign(count, 0);
   net_ = CollisionNet(kNetPart * least);
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    contacts_.push_back(std::make_unique<LayerContacts<Real>>(
-        nodes_, search_, grids[i], i, LayerParameters{gaps_[i], net_.gap(), parameters_.friction}));
-    cloths[i].set_layers(contacts_.back().get());
-  }
+  // What is remembered is of other grids.
+  contacts_.clear();
+  groups_.clear();
+  pairs_.clear();
+  std::vector<std::vector<std::size_t>> each_alone;
+  for (std::size_t i = 0; i < cloths.size(); ++i) each_alone.push_back({i});
+  set_groups(std::move(each_alone), cloths);
   may_be_tangled_ = true;
   found_ = false;
 }
@@ -102,7 +103,7 @@ void ClothContact<Real>::take_over_tears(const std::vector<Cloth<Real>>& cloths,
   if (torn == torn_[cloth]) return;
   torn_[cloth] = torn;
   search_.set_torn(cloth, *torn);
-  contacts_[cloth]->set_torn(torn);
+  contacts_of(cloth).set_torn(part_of(cloth), torn);
 }
 
 template <class Real>
@@ -167,9 +168,10 @@ void ClothContact<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt)
       const Vec3 before = nodes_.velocity[n];
       nodes_.velocity[n] = nodes_.inverse_mass[n] == 0 ? Vec3(0, 0, 0) : at(v, i);
       nodes_.acceleration[n] = Vec3(0, 0, 0);
-      const Vec3 by_layers = nodes_.inverse_mass[n] / dt * contacts_[k]->given()[i];
+      const Vec3& given = contacts_of(k).given(part_of(k), i);
+      const Vec3 by_layers = nodes_.inverse_mass[n] / dt * given;
       nodes_.support[n] = (nodes_.support[n] + lasting(-by_layers)) / 2;
-      const bool pressed = !contacts_[k]->given()[i].isZero(0), before_it = pressed_[n] != 0;
+      const bool pressed = !given.isZero(0), before_it = pressed_[n] != 0;
       pressed_[n] = pressed ? 1 : 0;
       if (anew || gap || nodes_.inverse_mass[n] == 0 || (pressed && before_it)) continue;
       nodes_.acceleration[n] = lasting((nodes_.velocity[n] - before) / dt - by_layers);
@@ -179,7 +181,7 @@ void ClothContact<Real>::begin_step(std::vector<Cloth<Real>>& cloths, double dt)
                  [&](const Vec3& x, const Vec3& v) { return x + dt * v; });
   if (may_be_tangled_ || std::any_of(cloths.begin(), cloths.end(), [](const auto& c) { return c.settled(); }))
     untangle(cloths);
-  share_pairs(cloths, dt);
+  find_pairs(cloths, dt);
 }
 
 template <class Real>
@@ -203,7 +205,7 @@ void ClothContact<Real>::untangle(std::vector<Cloth<Real>>& cloths) {
       add(kernels::components(cloths[k].particles().position), i, moves[n]);
       nodes_.start[n] += moves[n];
       nodes_.end[n] += moves[n];
-      contacts_[k]->struck().push_back(i);
+      contacts_of(k).strike(part_of(k), i);
       changed = true;
     }
     if (changed) cloths[k].moved_from_outside();
@@ -241,7 +243,7 @@ bool ClothContact<Real>::move_on(std::vector<Cloth<Real>>& cloths, double dt) {
       const Vec3 moved = nodes_.end[n] - untouched[n];
       add(kernels::components(particles.position), i, moved);
       if (nodes_.inverse_mass[n] > 0) add(kernels::components(particles.velocity), i, moved / dt);
-      contacts_[k]->struck().push_back(i);
+      contacts_of(k).strike(part_of(k), i);
       changed = true;
     }
     if (!changed) continue;

@@ -15,9 +15,10 @@ class Cloth;
 /// Contact of a scene's cloths with themselves and with one another (ClothContactEffect), around their steps.
 ///
 /// Before them the pairs are found that lie or will lie nearer than the thickness, of a node on a triangle,
-/// to an implicit step, the nearest on each side alone; each cloth takes them into its own step
-/// (LayerContacts), so that cloths are still stepped side by side. After them all the net (CollisionNet)
-/// stops what they missed, over all cloths together and in one order, whatever the threads.
+/// to an implicit step, the nearest on each side alone. Cloths that pairs join and whose methods are implicit
+/// make a group, which is stepped as one (LayerContacts); others take their pairs into their own steps.
+/// Groups are stepped side by side. After them all the net (CollisionNet) stops what they missed, over all
+/// cloths together and in one order, whatever the threads.
 ///
 /// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
 /// sheet would push each other.
@@ -32,8 +33,13 @@ class ClothContact {
 
   const ClothContactEffect& parameters() const { return parameters_; }
 
-  /// Before the cloths' step of dt seconds.
+  /// Before the cloths' step of dt seconds: finds the pairs, and says who keeps whom from sleep.
   void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
+  /// Hands the pairs to the cloths, in groups of those that are stepped together; `steps` says of each
+  /// whether its step is made.
+  void make_groups(std::vector<Cloth<Real>>& cloths, const std::vector<char>& steps);
+  /// Each by its cloths, in order.
+  const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
   /// After it: moves nodes on, with their velocities, where cloth would have passed through cloth; but none
   /// into a solid or through one.
   void end_step(std::vector<Cloth<Real>>& cloths, double dt);
@@ -65,7 +71,12 @@ class ClothContact {
   /// What the net has moved, in the cloths. True if solids were in its way: then those nodes are where they
   /// let them, here as well, and harder to move.
   bool move_on(std::vector<Cloth<Real>>& cloths, double dt);
-  void share_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  void find_pairs(std::vector<Cloth<Real>>& cloths, double dt);
+  /// Lays out the contacts of these groups; what was remembered of each cloth stays.
+  void set_groups(std::vector<std::vector<std::size_t>> groups, std::vector<Cloth<Real>>& cloths);
+  /// The contacts of the cloth's group, in which it is the part.
+  LayerContacts<Real>& contacts_of(std::size_t cloth) { return *contacts_[place_[cloth].group]; }
+  std::size_t part_of(std::size_t cloth) const { return place_[cloth].part; }
   /// Tells the cloths in what company they are; islands are of those that pairs join.
   void let_sleep(std::vector<Cloth<Real>>& cloths, DisjointSets& islands) const;
   /// Of a pair of two cloths, for cells_passed().
@@ -82,7 +93,23 @@ class ClothContact {
   LayerNodes nodes_;
   FeatureSearch search_;
   CollisionNet net_{0};
-  std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;
+  /// A pair for the cloths that step implicitly, or for the others.
+  struct FoundPair {
+    LayerPair pair;
+    bool implicitly = false;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(pair, implicitly);
+    }
+  };
+  std::vector<FoundPair> pairs_;  ///< of the step
+  /// Of a cloth among the groups.
+  struct Place {
+    std::size_t group = 0, part = 0;
+  };
+  std::vector<std::vector<std::size_t>> groups_;                ///< of cloths
+  std::vector<Place> place_;                                    ///< of each cloth
+  std::vector<std::unique_ptr<LayerContacts<Real>>> contacts_;  ///< of each group
   std::vector<char> pressed_;   ///< by node, by another cloth, in the step before the last
   std::vector<char> on_solid_;  ///< by node, as the last step ended
   std::vector<char> left_out_;  ///< by cloth, the step before the last, as it was told to rest

@@ -1,6 +1,7 @@
 /// The pairs: which features each cloth's step is given.
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "cloth/world/cloth.h"
@@ -86,19 +87,18 @@ double ClothContact<Real>::pass(const LayerPair& pair) const {
 }
 
 template <class Real>
-void ClothContact<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
+void ClothContact<Real>::find_pairs(std::vector<Cloth<Real>>& cloths, double dt) {
   const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
-  std::vector<std::vector<LayerPair>> shares(cloths.size());
   DisjointSets islands(cloths.size());
-  // With those of its cloths that step so.
-  const auto share = [&](const LayerPair& pair, bool with_implicit) {
+  pairs_.clear();
+  // For those of its cloths that step so.
+  const auto add = [&](const LayerPair& pair, bool for_implicit) {
+    pairs_.push_back({pair, for_implicit});
     const std::size_t one = sheet_of(pair.features.node[0]), other = sheet_of(pair.features.node[2]);
-    if (implicitly(one) == with_implicit) shares[one].push_back(pair);
     if (other == one) return;
     cells_passed_ = std::max(cells_passed_, pass(pair));
     islands.join(one, other);
-    if (implicitly(other) == with_implicit) shares[other].push_back(pair);
-    if (with_implicit != implicitly(one) && with_implicit != implicitly(other)) return;
+    if (for_implicit != implicitly(one) && for_implicit != implicitly(other)) return;
     for (const std::size_t sheet : {one, other}) {
       if (cloths[sheet].asleep() && rouses(pair)) cloths[sheet].wake();
     }
@@ -121,7 +121,7 @@ void ClothContact<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt
     const bool explicitly = !implicitly(one) || !implicitly(other);
     if ((explicitly ? std::min(distance, features.distance) : distance) - drop > pair.gap) continue;
     if (node_on_triangle) {
-      if (explicitly) share(pair, false);
+      if (explicitly) add(pair, false);
       if (!implicitly(one) && !implicitly(other)) continue;
       pair.side = side_of_sheet(grids_[one], nodes_.start.data() + nodes_.first[one],
                                 features.node[0] - nodes_.first[one], pair.normal, torn_[one].get());
@@ -135,13 +135,76 @@ void ClothContact<Real>::share_pairs(std::vector<Cloth<Real>>& cloths, double dt
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     if (search_.crowded(i)) crowded_[i] = 1;
   }
-  for (const auto& [pair, distance] : nearest.found()) share(pair, true);
+  for (const auto& [pair, distance] : nearest.found()) add(pair, true);
   for (const LayerPair& pair : edges) {
-    share(pair, true);
-    share(pair, false);
+    add(pair, true);
+    add(pair, false);
   }
-  for (std::size_t i = 0; i < cloths.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
   let_sleep(cloths, islands);
+}
+
+template <class Real>
+void ClothContact<Real>::make_groups(std::vector<Cloth<Real>>& cloths, const std::vector<char>& steps) {
+  const auto implicitly = [&](std::size_t sheet) { return cloths[sheet].steps_implicitly(); };
+  const auto together = [&](std::size_t sheet) { return steps[sheet] != 0 && implicitly(sheet); };
+  DisjointSets joined(cloths.size());
+  for (const FoundPair& found : pairs_) {
+    const std::size_t one = sheet_of(found.pair.features.node[0]),
+                      other = sheet_of(found.pair.features.node[2]);
+    if (found.implicitly && one != other && together(one) && together(other)) joined.join(one, other);
+  }
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::optional<std::size_t>> group_of_set(cloths.size());
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    std::optional<std::size_t>& group = group_of_set[joined.of(i)];
+    if (!group) {
+      group = groups.size();
+      groups.emplace_back();
+    }
+    groups[*group].push_back(i);
+  }
+  if (groups != groups_) set_groups(std::move(groups), cloths);
+  std::vector<std::vector<LayerPair>> shares(groups_.size());
+  for (const FoundPair& found : pairs_) {
+    const std::size_t one = sheet_of(found.pair.features.node[0]),
+                      other = sheet_of(found.pair.features.node[2]);
+    if (implicitly(one) == found.implicitly) shares[place_[one].group].push_back(found.pair);
+    if (place_[one].group != place_[other].group && implicitly(other) == found.implicitly)
+      shares[place_[other].group].push_back(found.pair);
+  }
+  for (std::size_t i = 0; i < groups_.size(); ++i) contacts_[i]->set_pairs(std::move(shares[i]));
+}
+
+template <class Real>
+void ClothContact<Real>::set_groups(std::vector<std::vector<std::size_t>> groups,
+                                    std::vector<Cloth<Real>>& cloths) {
+  auto before = std::exchange(contacts_, {});
+  const auto groups_before = std::exchange(groups_, std::move(groups));
+  place_.resize(cloths.size());
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    const auto same = std::find(groups_before.begin(), groups_before.end(), groups_[group]);
+    if (same != groups_before.end()) {
+      contacts_.push_back(std::move(before[static_cast<std::size_t>(same - groups_before.begin())]));
+      for (const std::size_t cloth : groups_[group]) place_[cloth].group = group;
+      continue;
+    }
+    std::vector<LayerParts::Part> parts;
+    for (const std::size_t cloth : groups_[group]) {
+      parts.push_back({grids_[cloth], nodes_.first[cloth], gaps_[cloth]});
+    }
+    contacts_.push_back(std::make_unique<LayerContacts<Real>>(
+        nodes_, search_, LayerParts(std::move(parts)), LayerParameters{net_.gap(), parameters_.friction}));
+    LayerContacts<Real>& contacts = *contacts_.back();
+    for (std::size_t part = 0; part < groups_[group].size(); ++part) {
+      const std::size_t cloth = groups_[group][part];
+      place_[cloth] = {group, part};
+      if (torn_[cloth] != nullptr) contacts.set_torn(part, torn_[cloth]);
+      cloths[cloth].set_layers(&contacts, part);
+    }
+    for (const auto& old : before) {
+      if (old != nullptr) contacts.take_over(*old);
+    }
+  }
 }
 
 template <class Real>
@@ -162,12 +225,18 @@ void ClothContact<Real>::let_sleep(std::vector<Cloth<Real>>& cloths, DisjointSet
 template std::size_t ClothContact<float>::sheet_of(std::uint32_t) const;
 template bool ClothContact<float>::rouses(const LayerPair&) const;
 template double ClothContact<float>::pass(const LayerPair&) const;
-template void ClothContact<float>::share_pairs(std::vector<Cloth<float>>&, double);
+template void ClothContact<float>::find_pairs(std::vector<Cloth<float>>&, double);
+template void ClothContact<float>::make_groups(std::vector<Cloth<float>>&, const std::vector<char>&);
+template void ClothContact<float>::set_groups(std::vector<std::vector<std::size_t>>,
+                                              std::vector<Cloth<float>>&);
 template void ClothContact<float>::let_sleep(std::vector<Cloth<float>>&, DisjointSets&) const;
 template std::size_t ClothContact<double>::sheet_of(std::uint32_t) const;
 template bool ClothContact<double>::rouses(const LayerPair&) const;
 template double ClothContact<double>::pass(const LayerPair&) const;
-template void ClothContact<double>::share_pairs(std::vector<Cloth<double>>&, double);
+template void ClothContact<double>::find_pairs(std::vector<Cloth<double>>&, double);
+template void ClothContact<double>::make_groups(std::vector<Cloth<double>>&, const std::vector<char>&);
+template void ClothContact<double>::set_groups(std::vector<std::vector<std::size_t>>,
+                                               std::vector<Cloth<double>>&);
 template void ClothContact<double>::let_sleep(std::vector<Cloth<double>>&, DisjointSets&) const;
 
 }  // namespace weft

@@ -1,10 +1,10 @@
 /// Cloth's steps: what is done around the integrator's.
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "cloth/core/clock.h"
 #include "cloth/core/place.h"
+#include "cloth/integrators/implicit.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/motion.h"
 #include "cloth/sheet/planar.h"
@@ -48,6 +48,13 @@ void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time) {
 
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
+  if (!begin_advance(solids, air, time, dt)) return left_alone();
+  Cloth* self = this;
+  return advance_together({&self, 1}, solids, air, time, dt)[0];
+}
+
+template <class Real>
+bool Cloth<Real>::begin_advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
   if (!asleep() && follow(particles_)) {
     guard_.amend(particles_);
     disturbed_ = true;  // heights are seen from the place
@@ -58,46 +65,84 @@ AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& 
   if (resting() && grabs_ != nullptr) wake();
   if (bag_ && bag_->fills(time)) wake();
   work_ = 0;
-  if (sleep_.through(particles_, solids, air) || guard_.stands_still())
-    return {.nodes_in_contact = nodes_in_contact_};
+  if (sleep_.through(particles_, solids, air) || guard_.stands_still()) return false;
   leave_plane(springs(), particles_);
-  const WorkLimit limit(most_work_);
-  AdvanceReport report;
-  try {
-    report = advance_soundly(solids, air, time, dt);
-  } catch (const TooMuchWork&) {
-    guard_.give_up(particles_);
-    forget_attempt();
-    solids_ = met_;
-  }
-  work_ = limit.done();
-  return report;
+  return true;
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::advance_soundly(const std::vector<Solid>& solids, const Air& air, double time,
-                                           double dt) {
+std::vector<AdvanceReport> Cloth<Real>::advance_together(std::span<Cloth* const> cloths,
+                                                         const std::vector<Solid>& solids, const Air& air,
+                                                         double time, double dt) {
+  double most = 0, nodes = 0;
+  for (const Cloth* cloth : cloths) {
+    most += cloth->most_work_;
+    nodes += cloth->particles_.grid().nodes();
+  }
+  const WorkLimit limit(most);
+  std::vector<AdvanceReport> reports(cloths.size());
+  try {
+    reports = advance_soundly(cloths, solids, air, time, dt);
+  } catch (const TooMuchWork&) {
+    for (Cloth* cloth : cloths) {
+      cloth->guard_.give_up(cloth->particles_);
+      cloth->forget_attempt();
+      cloth->solids_ = cloth->met_;
+    }
+  }
+  for (Cloth* cloth : cloths) cloth->work_ = limit.done() * cloth->particles_.grid().nodes() / nodes;
+  return reports;
+}
+
+template <class Real>
+std::vector<AdvanceReport> Cloth<Real>::advance_soundly(std::span<Cloth* const> cloths,
+                                                        const std::vector<Solid>& solids, const Air& air,
+                                                        double time, double dt) {
   using Verdict = typename StepGuard<Real>::Verdict;
   for (;;) {
-    settle_down(solids, time);
-    const Rung rung = guard_.rung();
-    AdvanceReport report = attempt(air, time, dt);
-    const auto begin = Clock::now();
-    const Verdict verdict = guard_.judge(particles_, report);
-    if (verdict == Verdict::good) {
-      if (guard_.rung() != rung) integrator_ = make_integrator<Real>(guard_.method());
-      sleep_.stepped(guard_.speed(), dt, particles_, solids);
-      time_ = time + dt;
-      settled_ = Unsettled::no;
-      nodes_in_contact_ = report.nodes_in_contact;
-      report.check_seconds = seconds(Clock::now() - begin);
-      if (tearing_) tear();
-      return report;
+    std::vector<Rung> rungs;
+    for (Cloth* cloth : cloths) {
+      cloth->settle_down(solids, time);
+      rungs.push_back(cloth->guard_.rung());
     }
-    forget_attempt();
-    solids_ = met_;
-    if (verdict == Verdict::stand_still) return {};
+    std::vector<AdvanceReport> reports = attempt(cloths, air, time, dt);
+    // What one of them has left bad all take back.
+    std::vector<char> passed;
+    for (std::size_t k = 0; k < cloths.size(); ++k)
+      passed.push_back(cloths[k]->guard_.passes(cloths[k]->particles_, reports[k]) ? 1 : 0);
+    const bool good = std::find(passed.begin(), passed.end(), 0) == passed.end();
+    bool stand_still = false;
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+      Cloth& cloth = *cloths[k];
+      if (good || passed[k] == 0) {
+        const auto begin = Clock::now();
+        const Verdict verdict = cloth.guard_.judge(cloth.particles_, reports[k]);
+        reports[k].check_seconds = seconds(Clock::now() - begin);
+        stand_still = stand_still || verdict == Verdict::stand_still;
+      } else {
+        cloth.guard_.put_back(cloth.particles_);
+      }
+      if (good) {
+        if (cloth.guard_.rung() != rungs[k]) cloth.integrator_ = make_integrator<Real>(cloth.guard_.method());
+        cloth.end_advance(solids, time, dt, reports[k]);
+      } else {
+        cloth.forget_attempt();
+        cloth.solids_ = cloth.met_;
+      }
+    }
+    if (good) return reports;
+    if (stand_still) return std::vector<AdvanceReport>(cloths.size());
   }
+}
+
+template <class Real>
+void Cloth<Real>::end_advance(const std::vector<Solid>& solids, double time, double dt,
+                              AdvanceReport& report) {
+  sleep_.stepped(guard_.speed(), dt, particles_, solids);
+  time_ = time + dt;
+  settled_ = Unsettled::no;
+  nodes_in_contact_ = report.nodes_in_contact;
+  if (tearing_) tear();
 }
 
 template <class Real>
@@ -110,7 +155,38 @@ Forces<Real> Cloth<Real>::forces(const EffectContext& context) {
 }
 
 template <class Real>
-AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
+std::vector<AdvanceReport> Cloth<Real>::attempt(std::span<Cloth* const> cloths, const Air& air, double time,
+                                                double dt) {
+  if (cloths.size() == 1) {
+    Cloth& cloth = *cloths[0];
+    return {cloth.integrator_->advance(cloth.particles_, cloth.all_forces(air, time, dt),
+                                       cloth.contact_in_step(), cloth.solids_, time, dt)};
+  }
+  std::vector<typename Implicit<Real>::Step> steps(cloths.size());
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    Cloth& cloth = *cloths[k];
+    steps[k].method = cloth.integrator_->implicit();
+    steps[k].particles = &cloth.particles_;
+    steps[k].forces = cloth.all_forces(air, time, dt);
+    steps[k].contact = cloth.contact_in_step();
+    steps[k].solids = &cloth.solids_;
+  }
+  Implicit<Real>::advance_together(steps, time, dt);
+  std::vector<AdvanceReport> reports;
+  for (const auto& step : steps) reports.push_back(step.report);
+  return reports;
+}
+
+template <class Real>
+Contact<Real>* Cloth<Real>::contact_in_step() {
+  if (solids_.empty()) return nullptr;
+  contact().set_body_touches(&body_touches_);
+  for (BodyTouch& touch : body_touches_) touch.impulse = 0;
+  return &contact();
+}
+
+template <class Real>
+Forces<Real> Cloth<Real>::all_forces(const Air& air, double time, double dt) {
   EffectContext context{&description_, &air.wind(), time};
   if (torn_) context.whole_faces = &whole_faces_;
   context.gusts = air.gusts();
@@ -119,13 +195,11 @@ AdvanceReport Cloth<Real>::attempt(const Air& air, double time, double dt) {
   if (pins_.moving()) all.pins = &pins_;
   all.layered = layers_ != nullptr;
   if (all.layered && !layers_->empty()) all.layers = layers_;
+  all.part = layer_part_;
   all.drive = drive(all, dt);
   all.disturbed = std::exchange(disturbed_, false);
   all.rescued = guard_.rung() == Rung::backward_euler_4 || guard_.rung() == Rung::backward_euler_16;
-  if (solids_.empty()) return integrator_->advance(particles_, all, nullptr, solids_, time, dt);
-  contact().set_body_touches(&body_touches_);
-  for (BodyTouch& touch : body_touches_) touch.impulse = 0;
-  return integrator_->advance(particles_, all, &contact(), solids_, time, dt);
+  return all;
 }
 
 template <class Real>
@@ -165,107 +239,43 @@ void Cloth<Real>::forget_attempt() {
   nodes_in_contact_ = 0;
 }
 
-template <class Real>
-std::vector<Solid> Cloth<Real>::seen(const std::vector<Solid>& solids) const {
-  std::vector<Solid> from_here;
-  from_here.reserve(solids.size());
-  for (const Solid& solid : solids) from_here.push_back(solid.from(particles_.place));
-  return from_here;
-}
-
-template <class Real>
-Contact<Real>& Cloth<Real>::contact() {
-  if (!contact_) contact_ = std::make_unique<Contact<Real>>(particles_.grid());
-  contact_->set_torn(torn_.get());
-  return *contact_;
-}
-
-template <class Real>
-std::vector<Touch> Cloth<Real>::keep_outside(const VectorField<Real>& before, double dt) {
-  if (solids_.empty()) return {};
-  std::vector<Touch> touches = contact().touches();
-  std::sort(touches.begin(), touches.end());
-  contact().resolve(particles_, solids_, {1, 1, dt}, &before);
-  std::vector<Touch> met = contact().touches();
-  contact().keep(touches);
-  return met;
-}
-
-template <class Real>
-void Cloth<Real>::add_pins_near(const std::vector<Solid>& solids, double time, double dt,
-                                std::vector<PinnedNode>& found) {
-  const auto yields = [](const Solid& solid) { return solid.yields(); };
-  if (description_.pins.empty() || std::none_of(solids.begin(), solids.end(), yields)) return;
-  std::map<std::size_t, Vec3> ways;  // by node
-  double longest = 0;
-  if (pins_.moving() && !frozen() && pins_.begin_step(particles_, solids, time, dt)) {
-    pins_.for_each_way(time, time + dt, [&](std::size_t node, const Vec3& way) {
-      ways[node] = way;
-      longest = std::max(longest, way.norm());
-    });
-  }
-  for (const NearPoint& near : contact().pinned_near(particles_, seen(solids), longest)) {
-    const ClothPoint<Real> point(near.point, particles_);
-    Solid pin;
-    pin.shape = Sphere{0};
-    pin.friction = solids[near.solid].friction;
-    pin.start = pin.position =
-        particles_.place + point.of(kernels::components(std::as_const(particles_.position)));
-    point.for_each_node([&](std::size_t node, double weight) {
-      const auto way = ways.find(node);
-      if (way == ways.end()) return;
-      pin.mobile = true;
-      pin.position += weight * way->second;
-      pin.velocity += weight / dt * way->second;
-    });
-    found.push_back({near.solid, pin});
-  }
-}
-
-template <class Real>
-bool Cloth<Real>::meets(const Solid& solid, double dt) {
-  const std::vector<Touch>& touches = contact().touches();
-  return std::any_of(touches.begin(), touches.end(),
-                     [&](const Touch& t) { return t.collider == solid.id; }) ||
-         !contact().foresee(particles_, {solid.from(particles_.place)}, {0, 1, dt}).empty();
-}
-
-template <class Real>
-void Cloth<Real>::push_balls(Colliders& colliders) const {
-  colliders.push(met_, solids_);
-}
-
 template bool Cloth<float>::unsettled(const std::vector<Solid>&);
 template void Cloth<float>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<float> Cloth<float>::forces(const EffectContext&);
-template AdvanceReport Cloth<float>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
-template AdvanceReport Cloth<float>::attempt(const Air&, double, double);
+template bool Cloth<float>::begin_advance(const std::vector<Solid>&, const Air&, double, double);
+template std::vector<AdvanceReport> Cloth<float>::advance_together(std::span<Cloth* const>,
+                                                                   const std::vector<Solid>&, const Air&,
+                                                                   double, double);
+template std::vector<AdvanceReport> Cloth<float>::advance_soundly(std::span<Cloth* const>,
+                                                                  const std::vector<Solid>&, const Air&,
+                                                                  double, double);
+template std::vector<AdvanceReport> Cloth<float>::attempt(std::span<Cloth* const>, const Air&, double,
+                                                          double);
+template Forces<float> Cloth<float>::all_forces(const Air&, double, double);
+template Contact<float>* Cloth<float>::contact_in_step();
+template void Cloth<float>::end_advance(const std::vector<Solid>&, double, double, AdvanceReport&);
 template Drive Cloth<float>::drive(const Forces<float>&, double) const;
 template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
 template void Cloth<float>::forget_attempt();
-template std::vector<Solid> Cloth<float>::seen(const std::vector<Solid>&) const;
-template Contact<float>& Cloth<float>::contact();
-template std::vector<Touch> Cloth<float>::keep_outside(const VectorField<float>&, double);
-template void Cloth<float>::add_pins_near(const std::vector<Solid>&, double, double,
-                                          std::vector<PinnedNode>&);
-template bool Cloth<float>::meets(const Solid&, double);
-template void Cloth<float>::push_balls(Colliders&) const;
 template bool Cloth<double>::unsettled(const std::vector<Solid>&);
 template void Cloth<double>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<double> Cloth<double>::forces(const EffectContext&);
-template AdvanceReport Cloth<double>::advance_soundly(const std::vector<Solid>&, const Air&, double, double);
-template AdvanceReport Cloth<double>::attempt(const Air&, double, double);
+template bool Cloth<double>::begin_advance(const std::vector<Solid>&, const Air&, double, double);
+template std::vector<AdvanceReport> Cloth<double>::advance_together(std::span<Cloth* const>,
+                                                                    const std::vector<Solid>&, const Air&,
+                                                                    double, double);
+template std::vector<AdvanceReport> Cloth<double>::advance_soundly(std::span<Cloth* const>,
+                                                                   const std::vector<Solid>&, const Air&,
+                                                                   double, double);
+template std::vector<AdvanceReport> Cloth<double>::attempt(std::span<Cloth* const>, const Air&, double,
+                                                           double);
+template Forces<double> Cloth<double>::all_forces(const Air&, double, double);
+template Contact<double>* Cloth<double>::contact_in_step();
+template void Cloth<double>::end_advance(const std::vector<Solid>&, double, double, AdvanceReport&);
 template Drive Cloth<double>::drive(const Forces<double>&, double) const;
 template const VectorField<float>* Cloth<double>::node_air(const Air&, double, double);
 template void Cloth<double>::forget_attempt();
-template std::vector<Solid> Cloth<double>::seen(const std::vector<Solid>&) const;
-template Contact<double>& Cloth<double>::contact();
-template std::vector<Touch> Cloth<double>::keep_outside(const VectorField<double>&, double);
-template void Cloth<double>::add_pins_near(const std::vector<Solid>&, double, double,
-                                           std::vector<PinnedNode>&);
-template bool Cloth<double>::meets(const Solid&, double);
-template void Cloth<double>::push_balls(Colliders&) const;
 
 }  // namespace weft

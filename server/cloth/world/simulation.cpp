@@ -101,7 +101,7 @@ void Simulation<Real>::compose(const std::vector<EffectDescription>& effects) {
 
 template <class Real>
 void Simulation<Real>::make_layers(const std::optional<ClothContactEffect>& contact) {
-  for (Cloth<Real>& cloth : cloths_) cloth.set_layers(nullptr);
+  for (Cloth<Real>& cloth : cloths_) cloth.set_layers(nullptr, 0);
   layers_ = contact ? std::make_unique<ClothContact<Real>>(*contact) : nullptr;
 }
 

@@ -148,9 +148,9 @@ class Simulation {
   void add_body_impulses();
   /// Tells the balls how many cloths will touch them.
   void share_balls(double dt);
-  /// Calls work(i) for each cloth, side by side where that helps.
+  /// Calls work(i) for each of so many cloths, or groups of them, side by side where that helps.
   template <class Work>
-  void for_each_cloth(const Work& work);
+  void for_each(std::size_t count, const Work& work);
   /// Those that have to settle do so before contact between cloths looks where they are: what the step then
   /// keeps apart would else be held in a shape that is not settled.
   void settle_cloths(double time);

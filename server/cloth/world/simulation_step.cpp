@@ -131,14 +131,13 @@ void Simulation<Real>::share_balls(double dt) {
 
 template <class Real>
 template <class Work>
-void Simulation<Real>::for_each_cloth(const Work& work) {
+void Simulation<Real>::for_each(std::size_t count, const Work& work) {
   int nodes = 0;
   for (const Cloth<Real>& cloth : cloths_) nodes += cloth.asleep() ? 0 : cloth.particles().grid().nodes();
-  const int count = static_cast<int>(cloths_.size());
   if (nodes >= kNodesWorthHelp) {
-    parallel_for(count, work);
+    parallel_for(static_cast<int>(count), work);
   } else {
-    for (int i = 0; i < count; ++i) work(i);
+    for (int i = 0; i < static_cast<int>(count); ++i) work(i);
   }
 }
 
@@ -149,7 +148,7 @@ void Simulation<Real>::settle_cloths(double time) {
   std::transform(cloths_.begin(), cloths_.end(), unsettled.begin(),
                  [&](Cloth<Real>& cloth) { return cloth.unsettled(solids) ? 1 : 0; });
   if (std::none_of(unsettled.begin(), unsettled.end(), [](char each) { return each != 0; })) return;
-  for_each_cloth([&](int i) {
+  for_each(cloths_.size(), [&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
     if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time);
   });
@@ -157,9 +156,30 @@ void Simulation<Real>::settle_cloths(double time) {
 
 template <class Real>
 void Simulation<Real>::advance_cloths(double time, double dt) {
-  for_each_cloth([&](int i) {
+  const std::vector<Solid>& solids = colliders_.solids();
+  if (!layers_) {
+    return for_each(cloths_.size(), [&](int i) {
+      const auto cloth = static_cast<std::size_t>(i);
+      last_advance_[cloth] += cloths_[cloth].advance(solids, air_, time, dt);
+    });
+  }
+  std::vector<char> steps(cloths_.size());
+  for_each(cloths_.size(), [&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
-    last_advance_[cloth] += cloths_[cloth].advance(colliders_.solids(), air_, time, dt);
+    steps[cloth] = cloths_[cloth].begin_advance(solids, air_, time, dt) ? 1 : 0;
+  });
+  layers_->make_groups(cloths_, steps);
+  const auto& groups = layers_->groups();
+  for_each(groups.size(), [&](int i) {
+    const std::vector<std::size_t>& group = groups[static_cast<std::size_t>(i)];
+    if (steps[group[0]] == 0) {  // it is alone
+      last_advance_[group[0]] += cloths_[group[0]].left_alone();
+      return;
+    }
+    std::vector<Cloth<Real>*> members;
+    for (const std::size_t cloth : group) members.push_back(&cloths_[cloth]);
+    const auto reports = Cloth<Real>::advance_together(members, solids, air_, time, dt);
+    for (std::size_t k = 0; k < group.size(); ++k) last_advance_[group[k]] += reports[k];
   });
 }
 

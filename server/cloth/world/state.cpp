@@ -63,7 +63,9 @@ void ClothContact<Real>::serialize(Archive& archive, std::vector<Cloth<Real>>& c
       torn_[i] = nullptr;  // the next step will take it over
     }
   }
-  archive(nodes_, search_);
+  std::vector<std::vector<std::size_t>> groups = groups_;
+  archive(nodes_, search_, pairs_, groups);
+  if (Archive::is_loading::value && groups != groups_) set_groups(groups, cloths);
   for (const auto& contacts : contacts_) archive(*contacts);
   archive(pressed_, on_solid_, left_out_, crowded_, found_, cells_passed_, may_be_tangled_, tangled_);
 }

@@ -16,11 +16,11 @@ constexpr double kSlowlyApart = 0.04;
 
 template <class Real>
 LayerImpulses<Real>::LayerImpulses(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid,
-                                   std::size_t cloth, const LayerParameters& parameters)
+                                   std::uint32_t first, const LayerParameters& parameters)
     : nodes_(&nodes),
       found_(&found),
-      first_(nodes.first[cloth]),
-      end_(nodes.first[cloth + 1]),
+      first_(first),
+      end_(first + static_cast<std::uint32_t>(grid.size())),
       friction_(parameters.friction),
       substep_net_(grid, parameters.net_gap) {}
 
@@ -43,10 +43,10 @@ void LayerImpulses<Real>::resolve(Particles<Real>& particles, const Substep& sub
     const Vec3 normal = contact_normal(pair.features.kind, ends.position, near);
     const double distance = normal.dot(near.apart);
     if (distance == 0 || distance >= pair.gap) continue;
-    double share = 0;
-    for (std::size_t i = 0; i < 4; ++i) share += near.weight[i] * near.weight[i] * ends.inverse_mass[i];
-    if (share == 0) continue;
-    const Hit each = hit(ends, near, {normal, share, pair.gap - distance}, shares, substep.seconds);
+    PairShare share;
+    for (std::size_t i = 0; i < 4; ++i) share.add(near.weight[i], ends.inverse_mass[i]);
+    if (share.sum == 0) continue;
+    const Hit each = hit(ends, near, {normal, share.bounded(), pair.gap - distance}, shares, substep.seconds);
     give(each, pair, near, ends, particles, given);
   }
   if (substep.from == 0) substep_net_.begin_step(*nodes_, inverse_mass_, *found_, first_, end_);

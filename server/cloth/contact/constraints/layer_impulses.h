@@ -17,9 +17,9 @@ namespace weft {
 template <class Real>
 class LayerImpulses {
  public:
-  /// Of cloth number `cloth` of the nodes. `found` is the search that the steps' pairs come from. It and the
-  /// nodes are kept by reference.
-  LayerImpulses(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid, std::size_t cloth,
+  /// Of the cloth whose nodes begin at `first`. `found` is the search that the steps' pairs come from. It and
+  /// the nodes are kept by reference.
+  LayerImpulses(const LayerNodes& nodes, const FeatureSearch& found, const Grid& grid, std::uint32_t first,
                 const LayerParameters& parameters);
 
   /// What is cut of the cloth.
@@ -55,7 +55,7 @@ class LayerImpulses {
   /// How they touch.
   struct Touching {
     Vec3 normal;
-    double share;  ///< inverse mass along it, 1/kg
+    double share;  ///< inverse mass along it, 1/kg (PairShare::bounded)
     double lack;   ///< of their gap, m
   };
   /// In a substep: of what pairs lack they are led apart, and of what they separate slowly with they lose.

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/contact/search/features.h"
@@ -26,9 +27,24 @@ struct LayerPair {
   }
 };
 
+/// How a pair's nodes share what moves it: their inverse masses, 1/kg, or what stands for them.
+struct PairShare {
+  double sum = 0;      ///< each by the square of its weight: what an impulse moves the pair by
+  double largest = 0;  ///< by its weight: what it moves a node by, at most
+  void add(double weight, double inverse_mass) {
+    sum += weight * weight * inverse_mass;
+    largest = std::max(largest, std::abs(weight) * inverse_mass);
+  }
+  /// By which an impulse is divided so that no node goes farther than the pair is to. Of equal masses none
+  /// would; but where only a node of a small weight can move, beside pinned ones, it would go by the inverse
+  /// of that, and pull the others after it.
+  double bounded() const { return std::max(sum, largest); }
+  /// How far the pair then goes of what it is to.
+  double part() const { return largest > 0 ? sum / bounded() : 1; }
+};
+
 /// How layers press on one another and rub.
 struct LayerParameters {
-  double gap = 0;      ///< between layers of the cloth, m
   double net_gap = 0;  ///< that the net keeps, m
   double friction = 0;
 };

@@ -23,6 +23,11 @@ class LayerStiffness {
     }
     return most;
   }
+  /// `count` nodes from `to` on go on as those of `before` from `from` on.
+  void take_over(const LayerStiffness& before, std::size_t from, std::size_t to, std::size_t count) {
+    std::copy_n(before.stiffness_.begin() + static_cast<std::ptrdiff_t>(from), count,
+                stiffness_.begin() + static_cast<std::ptrdiff_t>(to));
+  }
   /// In the step in hand: makes stiffer all nodes for which `nodes` has another value than 0.
   void stiffen(const std::vector<std::uint8_t>& nodes);
 

@@ -14,54 +14,68 @@ constexpr std::uint8_t kMostOfNode = 127;
 
 }  // namespace
 
-MeetingLayers::MeetingLayers(const Grid& grid, std::uint32_t first, const LayerParameters& parameters)
-    : grid_(grid), first_(first), parameters_(parameters) {
-  search_.set_grids({grid});
+MeetingLayers::MeetingLayers(const LayerParts& parts, const LayerParameters& parameters)
+    : parts_(parts), parameters_(parameters), torn_(parts.size()), places_(parts.size(), Vec3(0, 0, 0)) {
+  std::vector<Grid> grids;
+  for (const LayerParts::Part& part : parts) grids.push_back(part.grid);
+  search_.set_grids(grids);
 }
 
-void MeetingLayers::set_torn(const std::shared_ptr<const TornLinks>& torn) {
-  torn_ = torn;
-  search_.set_torn(0, *torn);
+void MeetingLayers::set_torn(std::size_t part, const std::shared_ptr<const TornLinks>& torn) {
+  torn_[part] = torn;
+  search_.set_torn(part, *torn);
 }
 
 template <class Real>
-void MeetingLayers::begin(const Particles<Real>& particles, const Substep& substep, const LayerNodes& nodes,
-                          const FeatureSearch& found) {
+void MeetingLayers::begin(std::span<const Particles<Real>* const> starts, const Substep& substep,
+                          const LayerNodes& nodes, const FeatureSearch& found) {
   rounds_ = 0;
-  place_ = particles.place;
-  const auto position = kernels::components(particles.position),
-             velocity = kernels::components(particles.velocity);
-  const std::size_t count = grid_.size();
+  const std::size_t count = parts_.nodes();
   own_.start.resize(count);
   own_.velocity.resize(count);
   own_.end.resize(count);
+  own_.inverse_mass.resize(count);
+  own_.tangled.resize(count);
+  for (std::size_t part = 0; part < parts_.size(); ++part) begin(part, *starts[part], substep, nodes);
+  if (substep.from > 0) return search_.forget();
+  std::vector<std::uint32_t> first;
+  for (const LayerParts::Part& part : parts_) first.push_back(part.first);
+  search_.take_over(found, first, own_);
+}
+
+template <class Real>
+void MeetingLayers::begin(std::size_t part, const Particles<Real>& particles, const Substep& substep,
+                          const LayerNodes& nodes) {
+  const LayerParts::Part& of = parts_[part];
+  places_[part] = particles.place;
+  const auto position = kernels::components(particles.position),
+             velocity = kernels::components(particles.velocity);
   // Not LayerNodes': to others the cloth stood still as the step began, though it may have woken in it.
   const auto& inverse_mass = particles.inverse_mass.values();
-  own_.inverse_mass.assign(inverse_mass.begin(), inverse_mass.end());
-  const auto tangled = nodes.tangled.begin() + first_;
-  own_.tangled.assign(tangled, tangled + static_cast<std::ptrdiff_t>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    own_.velocity[i] = at(velocity, i);
-    own_.start[i] = place_ + at(position, i);
+  for (std::size_t i = 0; i < of.grid.size(); ++i) {
+    const std::size_t n = of.offset + i;
+    own_.inverse_mass[n] = double(inverse_mass[i]);
+    own_.tangled[n] = nodes.tangled[of.first + i];
+    own_.velocity[n] = at(velocity, i);
+    own_.start[n] = particles.place + at(position, i);
     // A pin is at the substep's end already.
-    if (own_.inverse_mass[i] == 0) {
-      own_.end[i] = own_.start[i];
-      own_.start[i] += (1 - substep.from / substep.to) * (nodes.start[first_ + i] - own_.start[i]);
+    if (own_.inverse_mass[n] == 0) {
+      own_.end[n] = own_.start[n];
+      own_.start[n] += (1 - substep.from / substep.to) * (nodes.start[of.first + i] - own_.start[n]);
     }
-  }
-  if (substep.from == 0) {
-    search_.take_over(found, first_, own_);
-  } else {
-    search_.forget();
   }
 }
 
 template <class Real>
-std::vector<LayerPair> MeetingLayers::find(kernels::Components<const Real> position) {
+std::vector<LayerPair> MeetingLayers::find(std::span<const kernels::Components<const Real>> positions) {
   std::vector<LayerPair> found;
   if (rounds_ == kMostRounds) return found;
   ++rounds_;
-  for (std::size_t i = 0; i < own_.end.size(); ++i) own_.end[i] = place_ + at(position, i);
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    const LayerParts::Part& of = parts_[part];
+    for (std::size_t i = 0; i < of.grid.size(); ++i)
+      own_.end[of.offset + i] = places_[part] + at(positions[part], i);
+  }
   pairs_of_.assign(own_.end.size(), 0);
   for (const FeaturePair& features :
        search_.found(own_, kPairsInSight * parameters_.net_gap, kPairsFound * parameters_.net_gap)) {
@@ -86,22 +100,28 @@ std::optional<LayerPair> MeetingLayers::meeting(const FeaturePair& features) con
   const double distance = pair.near.apart.norm();
   if (distance == 0) return std::nullopt;
   pair.normal = pair.near.apart / distance;
-  pair.gap = parameters_.gap;
+  const std::size_t one = parts_.part_of_joined(features.node[0]);
+  pair.gap = parts_.gap(one, parts_.part_of_joined(features.node[2]));
   if (features.kind == FeaturePair::Kind::edge_edge) {
     pair.gap *= kEdgePart;
   } else {
-    pair.side = side_of_sheet(grid_, own_.start.data(), features.node[0], pair.normal, torn_.get());
+    const LayerParts::Part& part = parts_[one];
+    pair.side = side_of_sheet(part.grid, own_.start.data() + part.offset, features.node[0] - part.offset,
+                              pair.normal, torn_[one].get());
   }
   pair.features = features;
-  for (std::uint32_t& node : pair.features.node) node += first_;
+  for (std::uint32_t& node : pair.features.node) {
+    const LayerParts::Part& part = parts_[parts_.part_of_joined(node)];
+    node += part.first - part.offset;
+  }
   return pair;
 }
 
-template void MeetingLayers::begin(const Particles<float>&, const Substep&, const LayerNodes&,
-                                   const FeatureSearch&);
-template void MeetingLayers::begin(const Particles<double>&, const Substep&, const LayerNodes&,
-                                   const FeatureSearch&);
-template std::vector<LayerPair> MeetingLayers::find(kernels::Components<const float>);
-template std::vector<LayerPair> MeetingLayers::find(kernels::Components<const double>);
+template void MeetingLayers::begin(std::span<const Particles<float>* const>, const Substep&,
+                                   const LayerNodes&, const FeatureSearch&);
+template void MeetingLayers::begin(std::span<const Particles<double>* const>, const Substep&,
+                                   const LayerNodes&, const FeatureSearch&);
+template std::vector<LayerPair> MeetingLayers::find(std::span<const kernels::Components<const float>>);
+template std::vector<LayerPair> MeetingLayers::find(std::span<const kernels::Components<const double>>);
 
 }  // namespace weft

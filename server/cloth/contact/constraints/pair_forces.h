@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/contact/constraints/slip_gain.h"
 #include "cloth/core/vec3.h"
 
 namespace weft {
@@ -14,12 +15,13 @@ using PairKey = std::array<std::uint32_t, 4>;
 /// How a pair presses along its normal, and what static friction holds it with.
 struct PairForce {
   PairKey pair;
-  double force = 0;             ///< N
-  Vec3 grip{0, 0, 0};           ///< on the first feature, N
+  double force = 0;    ///< N
+  Vec3 grip{0, 0, 0};  ///< on the first feature, N
+  SlipGain gained{};
   bool between_cloths = false;  ///< which are stepped side by side, so that each finds one of its own
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(pair, force, grip, between_cloths);
+    archive(pair, force, grip, gained, between_cloths);
   }
 };
 

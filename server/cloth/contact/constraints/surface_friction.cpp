@@ -5,21 +5,10 @@
 #include <utility>
 
 namespace weft {
-namespace {
-
-/// The nearer to zero of two numbers of one sign; 0 if they differ in it. A gain that lasts is trusted, one
-/// that a single step's rounding gave is not.
-double minmod(double a, double b) {
-  if (a * b <= 0) return 0;
-  return std::abs(a) < std::abs(b) ? a : b;
-}
-
-}  // namespace
 
 void SurfaceFriction::go_on_from(const SurfaceFriction& last) {
   lasts_ = true;
   gained_ = last.gained_;
-  gained_before_ = last.gained_before_;
 }
 
 void SurfaceFriction::keep_force_of(const SurfaceFriction& last, const Vec3& normal) {
@@ -27,7 +16,7 @@ void SurfaceFriction::keep_force_of(const SurfaceFriction& last, const Vec3& nor
 }
 
 double SurfaceFriction::expected_stretch() const {
-  return std::max(0.0, stretch(going_on_).norm() + minmod(gained_, gained_before_));
+  return std::max(0.0, stretch(going_on_).norm() + gained_.lasting());
 }
 
 void SurfaceFriction::hold_at(double stretch, double holds) {
@@ -63,7 +52,7 @@ void SurfaceFriction::end(const Vec3& slip, double holds) {
   if (!solved_) return;
   hold_at(stretch(slip).norm(), holds);
   grip_ = force(slip);
-  gained_before_ = std::exchange(gained_, slip.norm() - going_on_.norm());
+  gained_.add(slip.norm() - going_on_.norm());
 }
 
 }  // namespace weft

@@ -1,4 +1,5 @@
 #pragma once
+#include "cloth/contact/constraints/slip_gain.h"
 #include "cloth/core/vec3.h"
 
 namespace weft {
@@ -40,8 +41,7 @@ class SurfaceFriction {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(grip_, going_on_, stopped_, gained_, gained_before_, stiffness_, rate_, inertia_, lasts_,
-            solved_);
+    archive(grip_, going_on_, stopped_, gained_, stiffness_, rate_, inertia_, lasts_, solved_);
   }
 
  private:
@@ -53,9 +53,7 @@ class SurfaceFriction {
   Vec3 grip_{0, 0, 0};      ///< when the substep begins, N
   Vec3 going_on_{0, 0, 0};  ///< slip in the substep if it goes on as before, m
   double stopped_ = 0;      ///< of that, as it meets the surface, m
-  /// By how much farther it slid in the last step, and in the one before, than if it had gone on as it went,
-  /// m.
-  double gained_ = 0, gained_before_ = 0;
+  SlipGain gained_;
   double stiffness_ = 0, rate_ = 0;  ///< of the spring that sticks, and as it is taken, N/m
   double inertia_ = 0;               ///< of the node, N/m
   bool lasts_ = false;               ///< it was there in the last step

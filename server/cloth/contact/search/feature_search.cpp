@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace weft {
@@ -176,21 +177,32 @@ const std::vector<FeaturePair>& FeatureSearch::find(const LayerNodes& nodes, dou
   return pairs_;
 }
 
-void FeatureSearch::take_over(const FeatureSearch& other, std::uint32_t first, const LayerNodes& nodes) {
-  const std::size_t count = nodes.start.size();
-  const auto end = first + static_cast<std::uint32_t>(count);
+void FeatureSearch::take_over(const FeatureSearch& other, const std::vector<std::uint32_t>& first,
+                              const LayerNodes& nodes) {
   margin_ = other.margin_;
-  end_.assign(other.end_.begin() + first, other.end_.begin() + end);
-  for (std::size_t i = 0; i < count; ++i) {
-    if ((nodes.start[i] - other.start_[first + i]).squaredNorm() > kSameStart * kSameStart) return forget();
+  end_.clear();
+  for (std::size_t k = 0; k < sheets_.size(); ++k) {
+    const std::size_t count = sheets_[k].tree.grid().size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& start = nodes.start[sheets_[k].first + i];
+      if ((start - other.start_[first[k] + i]).squaredNorm() > kSameStart * kSameStart) return forget();
+    }
+    const auto from = other.end_.begin() + first[k];
+    end_.insert(end_.end(), from, from + static_cast<std::ptrdiff_t>(count));
   }
   const Vec3 common = common_motion(nodes.start, end_, nodes.inverse_mass);
   for (Vec3& x : end_) x -= common;
   pairs_.clear();
-  const auto own = [&](std::uint32_t n) { return n >= first && n < end; };
+  const auto here = [&](std::uint32_t n) -> std::optional<std::uint32_t> {
+    for (std::size_t k = 0; k < sheets_.size(); ++k) {
+      if (n >= first[k] && n < first[k] + sheets_[k].tree.grid().size())
+        return n - first[k] + sheets_[k].first;
+    }
+    return std::nullopt;
+  };
   for (FeaturePair pair : other.pairs_) {
-    if (!own(pair.node[0]) || !own(pair.node[2])) continue;
-    for (std::uint32_t& n : pair.node) n -= first;
+    if (!here(pair.node[0]) || !here(pair.node[2])) continue;
+    for (std::uint32_t& n : pair.node) n = *here(n);
     pairs_.push_back(pair);
   }
 }

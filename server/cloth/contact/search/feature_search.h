@@ -36,8 +36,9 @@ class FeatureSearch {
   /// whose ends are others by now than can be told from it is found again; if these are many, all is, with
   /// the margin `again`.
   const std::vector<FeaturePair>& found(const LayerNodes& nodes, double margin, double again);
-  /// Goes on from what `other` has found: these are its nodes from `first` on, a whole sheet or several.
-  void take_over(const FeatureSearch& other, std::uint32_t first, const LayerNodes& nodes);
+  /// Goes on from what `other` has found: these are its nodes from each `first` on, a whole sheet each.
+  void take_over(const FeatureSearch& other, const std::vector<std::uint32_t>& first,
+                 const LayerNodes& nodes);
   /// Nothing was found.
   void forget() { margin_ = 0; }
   /// The last search's pairs, valid until the next one, and its margin, m: 0 if nothing was found.

@@ -216,11 +216,11 @@ TEST(FeatureSearch, GoesOnFromTheScenesSearch) {
   scene.set_grids({grid, grid});
   for (FeatureSearch* each : {&search, &anew}) each->set_grids({grid});
   scene.find(all, 0.008);
-  search.take_over(scene, size, own);
+  search.take_over(scene, {size}, own);
   EXPECT_EQ(missing(anew.find(own, 0.004), search.found(own, 0.004, 0.008)), 0u);
   EXPECT_EQ(search.searches(), 0u);
   for (Vec3& x : own.start) x.x() += 1e-6;  // it begins elsewhere: all is found anew
-  search.take_over(scene, size, own);
+  search.take_over(scene, {size}, own);
   EXPECT_EQ(missing(anew.find(own, 0.004), search.found(own, 0.004, 0.008)), 0u);
   EXPECT_EQ(search.searches(), 1u);
 }

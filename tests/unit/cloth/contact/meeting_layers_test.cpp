@@ -28,20 +28,25 @@ struct FoldedStrip {
     nodes.tangled.assign(count, 0);
     search.set_grids({grid});
     search.find(nodes, 8 * kMeetingGap);
-    meeting.begin(sheet, Substep{0, 1, kMeetingStep}, nodes, search);
+    begin();
+  }
+  void begin() {
+    const std::array<const Particles<double>*, 1> starts{&sheet};
+    meeting.begin<double>(starts, Substep{0, 1, kMeetingStep}, nodes, search);
   }
   /// With the last row moved by so much.
   std::vector<LayerPair> moved(const Vec3& by) {
     VectorField<double> to = sheet.position;
     for (int c = 0; c < grid.cols; ++c) set(to, 3, c, get(to, 3, c) + by);
-    return meeting.find(kernels::components(std::as_const(to)));
+    const std::array positions{kernels::components(std::as_const(to))};
+    return meeting.find<double>(positions);
   }
 
   Grid grid = Grid::with_nodes(4, 2);
   Particles<double> sheet{grid};
   LayerNodes nodes;
   FeatureSearch search;
-  MeetingLayers meeting{grid, 0, LayerParameters{kMeetingGap, kMeetingGap / 10, 0.5}};
+  MeetingLayers meeting{LayerParts({{grid, 0, kMeetingGap}}), LayerParameters{kMeetingGap / 10, 0.5}};
 };
 
 TEST(MeetingLayers, AreFoundWhereTheyPassThroughEachOther) {
@@ -71,7 +76,7 @@ TEST(MeetingLayers, AreLookedForOnlySoOftenInASubstep) {
   FoldedStrip strip(0.02);
   for (int round = 0; round < 4; ++round) EXPECT_FALSE(strip.moved({0, -0.04, 0}).empty()) << round;
   EXPECT_TRUE(strip.moved({0, -0.04, 0}).empty());
-  strip.meeting.begin(strip.sheet, Substep{0, 1, kMeetingStep}, strip.nodes, strip.search);
+  strip.begin();
   EXPECT_FALSE(strip.moved({0, -0.04, 0}).empty());
 }
 

@@ -37,11 +37,9 @@ class SidewaysChange : public ::testing::Test {
   ContactConstraints<double> contacts;
   Multigrid<double> system{rig.particles.grid(), false};
   NodeArrays<double> nodes{rig.particles.grid(), 9};
-  ChangeSearch<double> search{forces,
-                              contacts,
-                              system,
-                              {nodes.vector(0), nodes.vector(3), nodes.vector(6)},
-                              rig.springs().energy_at_twice(rig.particles.grid())};
+  ChangeSearch<double> search{{{forces, contacts, system, nodes.vector(0), nodes.vector(3), nodes.vector(6),
+                                rig.springs().energy_at_twice(rig.particles.grid())}},
+                              nullptr};
 };
 
 TEST_F(SidewaysChange, IsTakenWholeWhereItGainsEnough) {

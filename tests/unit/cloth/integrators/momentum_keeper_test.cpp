@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cloth/sheet/diagnostics.h"
+#include "cloth/sheet/motion.h"
 #include "rig.h"
 
 namespace weft {
@@ -37,9 +38,13 @@ struct Kept {
     });
   }
   double end(const Field<double>* second_order = nullptr, bool rubs = false) {
-    const Freedom freedom = is_held(rig.particles) ? Freedom::none() : freedom_beside(pushes, rig.particles);
-    return keeper.end_substep(rig.particles, rig.forces(0), rig.solids, start, nullptr, freedom, rubs,
-                              second_order, kKeptStep);
+    const MomentumKeeper<double>::Member member = as_member(second_order, rubs);
+    return MomentumKeeper<double>::end_substep({&member, 1}, kKeptStep);
+  }
+  MomentumKeeper<double>::Member as_member(const Field<double>* second_order = nullptr, bool rubs = false) {
+    freedom = is_held(rig.particles) ? Freedom::none() : freedom_beside(pushes, rig.particles);
+    forces = rig.forces(0);
+    return {&keeper, &rig.particles, &forces, &rig.solids, &start, nullptr, &freedom, rubs, second_order};
   }
   /// A floor pushes all nodes up.
   void lay_on_floor() {
@@ -55,6 +60,8 @@ struct Kept {
   MomentumKeeper<double> keeper;
   VectorField<double> start;
   std::vector<Push> pushes;
+  Freedom freedom = Freedom::none();
+  Forces<double> forces;
 };
 
 void expect_near(const Vec3& found, const Vec3& expected) {
@@ -72,6 +79,28 @@ TEST(MomentumKeeper, WithoutForcesMomentaStay) {
   EXPECT_EQ(cloth.end(), 1);
   expect_near(cloth.momentum(), momentum);
   expect_near(cloth.spin(), spin);
+}
+
+// Of two that are stepped together what they have together stays, and their motion beside each other is as
+// the solve has left it but for a rigid motion of both.
+TEST(MomentumKeeper, MomentaOfAllTogetherStay) {
+  Kept one, other;
+  other.rig.particles.place += Vec3(1, 2, -1);
+  const Vec3 momentum = one.momentum() + other.momentum(), spin = one.spin() + other.spin();
+  for (Kept* cloth : {&one, &other}) cloth->begin();
+  one.err(5);
+  other.err(6);
+  const Vec3 left = one.momentum();
+  ASSERT_GT((one.momentum() + other.momentum() - momentum).norm(), 0.01);
+  const Vec3 beside = one.rig.particles.velocity_at(2, 3) - other.rig.particles.velocity_at(2, 3),
+             apart = one.rig.particles.position_at(2, 3) - other.rig.particles.position_at(2, 3);
+  const std::array members{one.as_member(), other.as_member()};
+  EXPECT_EQ(MomentumKeeper<double>::end_substep(members, kKeptStep), 1);
+  expect_near(one.momentum() + other.momentum(), momentum);
+  expect_near(one.spin() + other.spin(), spin);
+  EXPECT_GT((one.momentum() - left).norm(), 1e-3);
+  const Vec3 added = one.rig.particles.velocity_at(2, 3) - other.rig.particles.velocity_at(2, 3) - beside;
+  EXPECT_NEAR(added.dot(apart), 0, 1e-12) << "a rigid motion changes no distance";
 }
 
 // What it adds strains nothing: it changes no distance.

@@ -83,5 +83,28 @@ TEST(ClothContact, TellsHowFastClothGoesPastCloth) {
   EXPECT_NEAR(contact.cells_passed(), speed * 16, 0.05 * speed * 16);
 }
 
+using Groups = std::vector<std::vector<std::size_t>>;
+
+// Of four, the first and the third lie on each other, and nothing lies near the second; the fourth is near
+// the third, but its step is not made.
+TEST(ClothContact, WhatTouchesIsSteppedTogether) {
+  std::vector<Cloth<float>> cloths = sheets({0, 1, 0.006, 0.012});
+  ClothContact<float> contact(ClothContactEffect{.thickness = kThickness});
+  contact.begin_step(cloths, kFrame);
+  contact.make_groups(cloths, {1, 1, 1, 0});
+  EXPECT_EQ(contact.groups(), (Groups{{0, 2}, {1}, {3}}));
+  contact.make_groups(cloths, {1, 1, 1, 1});
+  EXPECT_EQ(contact.groups(), (Groups{{0, 2, 3}, {1}}));
+}
+
+TEST(ClothContact, ExplicitMethodsAreSteppedApart) {
+  std::vector<Cloth<float>> cloths = sheets({0, 0.006});
+  for (Cloth<float>& cloth : cloths) cloth.set_integrator(XpbdDescription{});
+  ClothContact<float> contact(ClothContactEffect{.thickness = kThickness});
+  contact.begin_step(cloths, kFrame);
+  contact.make_groups(cloths, {1, 1});
+  EXPECT_EQ(contact.groups(), (Groups{{0}, {1}}));
+}
+
 }  // namespace
 }  // namespace weft::test
