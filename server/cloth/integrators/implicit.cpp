@@ -71,6 +71,7 @@ void Implicit<Real>::advance_together(std::span<Step> steps, double time, double
     }
     if (layers != nullptr) {
       std::vector<const Particles<Real>*> starts;
+      starts.reserve(steps.size());
       bool near_rest = true;
       for (const Step& step : steps) {
         starts.push_back(step.particles);
@@ -235,6 +236,7 @@ void Implicit<Real>::add_damping(const Particles<Real>& particles, const Forces<
 template <class Real>
 void Implicit<Real>::keep_momentum(std::span<Step> steps) {
   std::vector<typename MomentumKeeper<Real>::Member> members;
+  members.reserve(steps.size());
   for (Step& step : steps) {
     Memory& memory = *step.method->memory_;
     members.push_back({&memory.momentum, step.particles, &step.forces, step.solids, &memory.formula.start(),

@@ -83,6 +83,7 @@ bool Implicit<Real>::hold_inside(const Particles<Real>& particles, const Springs
 template <class Real>
 bool Implicit<Real>::hold_meeting(std::span<Step> steps) {
   std::vector<kernels::Components<const Real>> positions;
+  positions.reserve(steps.size());
   for (const Step& step : steps)
     positions.push_back(kernels::components(std::as_const(step.particles->position)));
   LayerContacts<Real>& layers = *steps[0].forces.layers;

@@ -182,6 +182,7 @@ LinearSolveReport Implicit<Real>::solve(std::span<Step> steps, const SolveTarget
   LayerContacts<Real>* layers = steps[0].forces.layers;
   SystemCouplings<Real> between;
   std::vector<LayerSystem<Real>> systems;
+  systems.reserve(steps.size());
   int iterations = 0;
   for (Step& step : steps) {
     State& s = *step.method->state_;
@@ -192,8 +193,10 @@ LinearSolveReport Implicit<Real>::solve(std::span<Step> steps, const SolveTarget
   }
   if (layers != nullptr) layers->add_to(systems, between);
   std::vector<kernels::Components<Real>> corrections;
+  corrections.reserve(steps.size());
   for (Step& step : steps) corrections.push_back(step.method->memory_->correction.vector());
   std::vector<SystemPart<Real>> parts;
+  parts.reserve(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     State& s = *steps[k].method->state_;
     if (steps[k].forces.bag != nullptr) steps[k].forces.bag->average(s.b);
@@ -206,6 +209,7 @@ LinearSolveReport Implicit<Real>::solve(std::span<Step> steps, const SolveTarget
 template <class Real>
 ChangeReport Implicit<Real>::change(std::span<Step> steps, double decrease, bool searched) {
   std::vector<ChangedPart<Real>> parts;
+  parts.reserve(steps.size());
   for (Step& step : steps) {
     State& s = *step.method->state_;
     parts.push_back({step.forces, step.method->memory_->contacts, s.system, s.position, s.move, s.change,
@@ -232,6 +236,7 @@ void Implicit<Real>::move(Particles<Real>& particles) {
 template <class Real>
 std::vector<kernels::Components<const Real>> Implicit<Real>::moves_of(std::span<Step> steps) {
   std::vector<kernels::Components<const Real>> moves;
+  moves.reserve(steps.size());
   for (const Step& step : steps) moves.push_back(step.method->state_->move);
   return moves;
 }

@@ -121,9 +121,10 @@ auto MomentumKeeper<Real>::input(const Member& member, const Vec3& centre) -> In
   forces.sum_effects(particles, force_, hung_ ? forces.soft_pins : nullptr);
   Input input;
   const auto each_force = kernels::components(std::as_const(force_));
-  const auto from = kernels::components(*member.start), to = kernels::components(member.particles->position);
+  const auto from = kernels::components(*member.start),
+             to = kernels::components(std::as_const(particles.position));
   for_each_node(grid, [&](std::size_t i, int r, int c) {
-    const Vec3 f = at(each_force, i), way = at<Real>(to, i) - at(from, i);
+    const Vec3 f = at(each_force, i), way = at(to, i) - at(from, i);
     input.force += f;
     input.torque += (particles.position_at(r, c) - centre).cross(f);
     input.work += f.dot(way);

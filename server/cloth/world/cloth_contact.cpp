@@ -86,6 +86,7 @@ void ClothContact<Real>::lay_out(std::vector<Cloth<Real>>& cloths) {
   groups_.clear();
   pairs_.clear();
   std::vector<std::vector<std::size_t>> each_alone;
+  each_alone.reserve(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i) each_alone.push_back({i});
   set_groups(std::move(each_alone), cloths);
   may_be_tangled_ = true;

@@ -189,6 +189,7 @@ void ClothContact<Real>::set_groups(std::vector<std::vector<std::size_t>> groups
       continue;
     }
     std::vector<LayerParts::Part> parts;
+    parts.reserve(groups_[group].size());
     for (const std::size_t cloth : groups_[group]) {
       parts.push_back({grids_[cloth], nodes_.first[cloth], gaps_[cloth]});
     }

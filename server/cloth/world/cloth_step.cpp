@@ -101,6 +101,7 @@ std::vector<AdvanceReport> Cloth<Real>::advance_soundly(std::span<Cloth* const> 
   using Verdict = typename StepGuard<Real>::Verdict;
   for (;;) {
     std::vector<Rung> rungs;
+    rungs.reserve(cloths.size());
     for (Cloth* cloth : cloths) {
       cloth->settle_down(solids, time);
       rungs.push_back(cloth->guard_.rung());
@@ -108,6 +109,7 @@ std::vector<AdvanceReport> Cloth<Real>::advance_soundly(std::span<Cloth* const> 
     std::vector<AdvanceReport> reports = attempt(cloths, air, time, dt);
     // What one of them has left bad all take back.
     std::vector<char> passed;
+    passed.reserve(cloths.size());
     for (std::size_t k = 0; k < cloths.size(); ++k)
       passed.push_back(cloths[k]->guard_.passes(cloths[k]->particles_, reports[k]) ? 1 : 0);
     const bool good = std::find(passed.begin(), passed.end(), 0) == passed.end();
@@ -173,6 +175,7 @@ std::vector<AdvanceReport> Cloth<Real>::attempt(std::span<Cloth* const> cloths, 
   }
   Implicit<Real>::advance_together(steps, time, dt);
   std::vector<AdvanceReport> reports;
+  reports.reserve(steps.size());
   for (const auto& step : steps) reports.push_back(step.report);
   return reports;
 }

@@ -177,6 +177,7 @@ void Simulation<Real>::advance_cloths(double time, double dt) {
       return;
     }
     std::vector<Cloth<Real>*> members;
+    members.reserve(group.size());
     for (const std::size_t cloth : group) members.push_back(&cloths_[cloth]);
     const auto reports = Cloth<Real>::advance_together(members, solids, air_, time, dt);
     for (std::size_t k = 0; k < group.size(); ++k) last_advance_[group[k]] += reports[k];

@@ -88,6 +88,7 @@ std::array<std::size_t, 4> LayerContacts<Real>::joined(const LayerConstraint<Rea
 template <class Real>
 void LayerContacts<Real>::add_to(std::span<const LayerSystem<Real>> systems, SystemCouplings<Real>& between) {
   std::vector<kernels::Components<const Real>> move;
+  move.reserve(systems.size());
   for (const LayerSystem<Real>& system : systems) move.push_back(system.move);
   for (LayerConstraint<Real>& c : constraints_) {
     PairShare share;

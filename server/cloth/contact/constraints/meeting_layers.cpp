@@ -17,6 +17,7 @@ constexpr std::uint8_t kMostOfNode = 127;
 MeetingLayers::MeetingLayers(const LayerParts& parts, const LayerParameters& parameters)
     : parts_(parts), parameters_(parameters), torn_(parts.size()), places_(parts.size(), Vec3(0, 0, 0)) {
   std::vector<Grid> grids;
+  grids.reserve(parts.size());
   for (const LayerParts::Part& part : parts) grids.push_back(part.grid);
   search_.set_grids(grids);
 }
@@ -39,6 +40,7 @@ void MeetingLayers::begin(std::span<const Particles<Real>* const> starts, const 
   for (std::size_t part = 0; part < parts_.size(); ++part) begin(part, *starts[part], substep, nodes);
   if (substep.from > 0) return search_.forget();
   std::vector<std::uint32_t> first;
+  first.reserve(parts_.size());
   for (const LayerParts::Part& part : parts_) first.push_back(part.first);
   search_.take_over(found, first, own_);
 }
