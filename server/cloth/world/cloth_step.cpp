@@ -107,19 +107,19 @@ std::vector<AdvanceReport> Cloth<Real>::advance_soundly(std::span<Cloth* const> 
       rungs.push_back(cloth->guard_.rung());
     }
     std::vector<AdvanceReport> reports = attempt(cloths, air, time, dt);
-    // What one of them has left bad all take back.
-    std::vector<char> passed;
-    passed.reserve(cloths.size());
-    for (std::size_t k = 0; k < cloths.size(); ++k)
-      passed.push_back(cloths[k]->guard_.passes(cloths[k]->particles_, reports[k]) ? 1 : 0);
-    const bool good = std::find(passed.begin(), passed.end(), 0) == passed.end();
-    bool stand_still = false;
+    // What one of them has left bad all take back: the good ones before they are judged, which would keep
+    // their states. One that is alone is judged at once.
+    std::vector<char> passed(cloths.size(), 1);
+    for (std::size_t k = 0; k < cloths.size() && cloths.size() > 1; ++k)
+      passed[k] = cloths[k]->guard_.passes(cloths[k]->particles_, reports[k]) ? 1 : 0;
+    bool good = std::find(passed.begin(), passed.end(), 0) == passed.end(), stand_still = false;
     for (std::size_t k = 0; k < cloths.size(); ++k) {
       Cloth& cloth = *cloths[k];
       if (good || passed[k] == 0) {
         const auto begin = Clock::now();
         const Verdict verdict = cloth.guard_.judge(cloth.particles_, reports[k]);
         reports[k].check_seconds = seconds(Clock::now() - begin);
+        good = good && verdict == Verdict::good;
         stand_still = stand_still || verdict == Verdict::stand_still;
       } else {
         cloth.guard_.put_back(cloth.particles_);

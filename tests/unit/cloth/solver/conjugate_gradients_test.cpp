@@ -173,16 +173,17 @@ TEST(ConjugateGradients, SolveSystemsTogetherThatCouplingsJoin) {
       ConjugateGradients<double>::solve_together(parts, couplings, {.least = 1e-24}, 400);
   EXPECT_TRUE(report.converged);
   using Field = kernels::Components<const double>;
-  const Vec3 force = stiffness * (at(Field(one.x), n) - at(Field(other.x), m));
+  const Vec3 force = stiffness * (weft::at(Field(one.x), n) - weft::at(Field(other.x), m));
   EXPECT_GT(force.norm(), 1e-3) << "it pulls";
   one.system.multiply(one.x, one.other);
   other.system.multiply(other.x, other.other);
-  add(one.other, n, force);
-  add(other.other, m, Vec3(-force));
+  weft::add(one.other, n, force);
+  weft::add(other.other, m, Vec3(-force));
   for (HungSheet* sheet : {&one, &other}) {
     each_node(sheet->grid, [&](int r, int c) {
       const std::size_t i = sheet->grid.index(r, c);
-      EXPECT_LT((at(Field(sheet->other), i) - at(Field(sheet->b), i)).norm(), 1e-7) << r << ", " << c;
+      EXPECT_LT((weft::at(Field(sheet->other), i) - weft::at(Field(sheet->b), i)).norm(), 1e-7)
+          << r << ", " << c;
     });
   }
 }

@@ -19,13 +19,13 @@ TEST(SystemCouplings, PullAtTheNodesOfAllParts) {
   EXPECT_TRUE(couplings.empty());
   const Eigen::Matrix3d stiffness = Eigen::Vector3d(0, 100, 7).asDiagonal();
   couplings.add({{1, 0, 0, 0}, {2, 0, 1, 0}, {1, -0.5, -0.5, 0}, stiffness});
-  set(x[1], 2, Vec3(1, 3, 0));
-  set(x[0], 0, Vec3(0, 1, 0));
-  set(x[0], 1, Vec3(0, 0, 2));
+  weft::set(x[1], 2, Vec3(1, 3, 0));
+  weft::set(x[0], 0, Vec3(0, 1, 0));
+  weft::set(x[0], 1, Vec3(0, 0, 2));
   // W x = (1, 3, 0) - (0, 1, 0) / 2 - (0, 0, 2) / 2 = (1, 2.5, -1); K W x = (0, 250, -7)
   EXPECT_NEAR(couplings.multiply(x, y), 2.5 * 250 + 7, 1e-12);
   const auto result = [&](std::size_t part, std::size_t node) {
-    return at(kernels::Components<const double>(y[part]), node);
+    return weft::at(kernels::Components<const double>(y[part]), node);
   };
   EXPECT_EQ(result(1, 2), Vec3(0, 250, -7));
   EXPECT_EQ(result(0, 0), Vec3(0, -125, 3.5));
