@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <random>
 
 #include "cloth/shapes/mass_properties.h"
 #include "cloth/world/simulation.h"
+#include "draws.h"
 #include "fixtures.h"
 #include "methods.h"
 #include "scene/convex_hull.h"
@@ -23,16 +23,8 @@ struct Drawn {
   double volume = 0;  ///< m3
 };
 
-class Draw {
+class Draw : public Draws {
  public:
-  double between(double low, double high) {
-    return low + (high - low) * double(random_()) / double(std::mt19937::max());
-  }
-  template <class Each, std::size_t count>
-  Each one_of(const std::array<Each, count>& all) {
-    return all[random_() % count];
-  }
-
   Drawn box() {
     BoxDescription box;
     for (int axis = 0; axis < 3; ++axis) box.size[axis] = between(kThinnest, 0.3);
@@ -40,7 +32,7 @@ class Draw {
   }
   Drawn hull() {
     for (;;) {
-      std::vector<Vec3> corners(4 + random_() % 5);
+      std::vector<Vec3> corners(4 + static_cast<std::size_t>(below(5)));
       for (Vec3& corner : corners) corner = Vec3(between(-1, 1), between(-1, 1), between(-1, 1)) * 0.15;
       TriangleList surface = scene::convex_hull(corners);
       const Vec3 centre = mass_properties(surface).centre;
@@ -64,7 +56,6 @@ class Draw {
     }
     return sixfold / 6;
   }
-  std::mt19937 random_{1};
 };
 
 /// On a sheet of 2 m.

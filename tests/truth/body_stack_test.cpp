@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <random>
 
 #include "cloth/world/simulation.h"
+#include "draws.h"
 #include "fixtures.h"
 #include "methods.h"
 #include "undamped.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSheetHeight = 1;  // m
 
-class Stacks {
+class Stacks : Draws {
  public:
   /// Two to four boxes and balls of 0.1 to 2 kg, up to 2 cm above one another.
   SimulationDescription draw(const IntegratorDescription& integrator) {
@@ -30,7 +30,7 @@ class Stacks {
     sheet.pins = {{0, 1, 0, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 1, 0, 1}};
     scene.cloths = {sheet};
     double height = kSheetHeight + 0.02;
-    for (int left = 2 + static_cast<int>(random_() % 3); left > 0; --left) height = pile(scene, height);
+    for (int left = 2 + below(3); left > 0; --left) height = pile(scene, height);
     scene.effects = {GravityEffect{}};
     scene.time_step = 1.0 / one_of(std::array{15, 30, 60, 120});
     scene.integrator = integrator;
@@ -38,19 +38,12 @@ class Stacks {
   }
 
  private:
-  double between(double low, double high) {
-    return low + (high - low) * double(random_()) / double(std::mt19937::max());
-  }
-  template <class Each, std::size_t count>
-  Each one_of(const std::array<Each, count>& all) {
-    return all[random_() % count];
-  }
   /// Returns where the next one's lower side comes, m.
   double pile(SimulationDescription& scene, double height) {
     const double mass = std::pow(10, between(-1, 0.3)), tall = between(0.05, 0.2);
     const Vec3 place(between(-0.03, 0.03), height + tall / 2, between(-0.03, 0.03));
     const double friction = one_of(std::array{0.0, 0.3, 0.6});
-    if (random_() % 3 == 0) {
+    if (below(3) == 0) {
       BallDescription ball;
       ball.position = place;
       ball.radius = tall / 2;
@@ -68,8 +61,6 @@ class Stacks {
     }
     return height + tall + one_of(std::array{0.001, 0.02});
   }
-
-  std::mt19937 random_{1};
 };
 
 /// Of the bodies, J; in gravity's field above the sheet as it begins.

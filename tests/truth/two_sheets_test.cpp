@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/world/simulation.h"
+#include "draws.h"
 #include "fixtures.h"
 #include "methods.h"
 
@@ -30,7 +30,7 @@ Sum sum_of(const Simulation<float>& simulation) {
   return sum;
 }
 
-class Blows {
+class Blows : Draws {
  public:
   /// The second sheet comes down on the first one, which is at rest.
   SimulationDescription draw(const IntegratorDescription& integrator) {
@@ -58,17 +58,6 @@ class Blows {
     scene.integrator = integrator;
     return scene;
   }
-
- private:
-  double between(double low, double high) {
-    return low + (high - low) * double(random_()) / double(std::mt19937::max());
-  }
-  template <class Each, std::size_t count>
-  Each one_of(const std::array<Each, count>& all) {
-    return all[random_() % count];
-  }
-
-  std::mt19937 random_{1};
 };
 
 class TwoSheets : public ImplicitMethod {};
@@ -76,7 +65,7 @@ class TwoSheets : public ImplicitMethod {};
 // As parts of the momentum, its moment by a lever of 1 m, and the energy that the sheets have beside each
 // other. All are exact but for what the solve has missed and is put right after it, and what friction does
 // across the gap. Of 1,152 blows drawn otherwise the momentum was off by more than 0.001 in 4, its moment by
-// more than 0.05 in 4, and the energy rose by more than 0.05 in 4.
+// more than 0.05 in 4, and the energy rose by more than 0.05 in 4; of these by 4e-6, 0.13 and 0.025 at most.
 TEST_P(TwoSheets, ExchangeMomentumAndGainNoEnergy) {
   constexpr double kLongest = 1.5;  // s
   Blows blows;
@@ -100,9 +89,9 @@ TEST_P(TwoSheets, ExchangeMomentumAndGainNoEnergy) {
       return ::testing::Message() << "blow " << blow << " of " << speed << " m/s, " << one << " and " << other
                                   << " kg, " << scene.time_step << " s";
     };
-    EXPECT_LT(momentum, 0.02 * mass * speed) << what();
+    EXPECT_LT(momentum, 1e-3 * mass * speed) << what();
     EXPECT_LT(angular, 0.2 * mass * speed) << what();
-    EXPECT_LT(most, 0.1 * mass * speed * speed / 2) << what();
+    EXPECT_LT(most, 0.05 * mass * speed * speed / 2) << what();
     EXPECT_TRUE(simulation.guard_events().empty()) << what();
     if (sum_of(simulation).energy < start.energy - 0.01 * mass * speed * speed / 2) ++met;
   }

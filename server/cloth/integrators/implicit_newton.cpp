@@ -203,7 +203,7 @@ LinearSolveReport Implicit<Real>::solve(std::span<Step> steps, const SolveTarget
     s.system.prepare();
     parts.push_back({&s.solver, &s.system, s.b, s.change, corrected ? &corrections[k] : nullptr});
   }
-  return ConjugateGradients<Real>::solve_together(parts, between, target, iterations);
+  return ConjugateGradients<Real>::solve(parts, between, target, iterations);
 }
 
 template <class Real>

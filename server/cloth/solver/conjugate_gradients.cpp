@@ -33,18 +33,9 @@ double ErrorEstimate::squared() const {
 }
 
 template <class Real>
-LinearSolveReport ConjugateGradients<Real>::solve(Multigrid<Real>& system, kernels::Components<const Real> b,
-                                                  kernels::Components<Real> x, const SolveTarget& target,
-                                                  int max_iterations,
-                                                  const kernels::Components<Real>* correction) {
-  const SystemPart<Real> part{this, &system, b, x, correction};
-  return solve_together({&part, 1}, {}, target, max_iterations);
-}
-
-template <class Real>
-LinearSolveReport ConjugateGradients<Real>::solve_together(std::span<const SystemPart<Real>> parts,
-                                                           const SystemCouplings<Real>& couplings,
-                                                           const SolveTarget& target, int max_iterations) {
+LinearSolveReport ConjugateGradients<Real>::solve(std::span<const SystemPart<Real>> parts,
+                                                  const SystemCouplings<Real>& couplings,
+                                                  const SolveTarget& target, int max_iterations) {
   using Vectors = std::vector<kernels::Components<Real>>;  // one a part
   Vectors x, p, q, r;
   std::size_t nodes = 0;

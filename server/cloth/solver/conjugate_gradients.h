@@ -54,30 +54,26 @@ struct SystemPart {
   const kernels::Components<Real>* correction = nullptr;
 };
 
-/// Conjugate gradients on Multigrid's system (Shewchuk, An Introduction to the Conjugate Gradient Method,
-/// 1994), preconditioned by its cycle. Keeps its vectors from one call to the next.
+/// Conjugate gradients on Multigrid's system, or several (Shewchuk, An Introduction to the Conjugate Gradient
+/// Method, 1994), preconditioned by its cycle. Each system has one, which keeps its vectors from one call to
+/// the next.
 template <class Real>
 class ConjugateGradients {
  public:
   explicit ConjugateGradients(const Grid& grid) : bands_(grid), vectors_(grid, 9) {}
 
-  /// Improves x, the guess, until the squared error, in the energy norm x . A x, is at most the target by
-  /// ErrorEstimate, or for `max_iterations`. What there was to find is what the guess found and a first
-  /// iteration would. Wherever it stops, x . A x / 2 - b . x is not above 0, its value for no move at all: an
-  /// implicit step so left unfinished loses energy and gains none. `b` and `x` lie in arrays with margins and
-  /// are 0 at fixed nodes.
+  /// Of the parts, which `couplings` join to one system, improves all x, the guess, until the squared error,
+  /// in the energy norm x . A x, is at most the target by ErrorEstimate, or for `max_iterations`. What there
+  /// was to find is what the guess found and a first iteration would. Wherever it stops, x . A x / 2 - b . x
+  /// is not above 0, its value for no move at all: an implicit step so left unfinished loses energy and gains
+  /// none. `b` and `x` lie in arrays with margins and are 0 at fixed nodes.
   ///
-  /// `correction`, if any, is such an array too: what an earlier solve of a system much like this one found
-  /// beside its guess. This one begins with the best of the guess and the correction together, and leaves its
-  /// own there.
-  LinearSolveReport solve(Multigrid<Real>& system, kernels::Components<const Real> b,
-                          kernels::Components<Real> x, const SolveTarget& target, int max_iterations,
-                          const kernels::Components<Real>* correction = nullptr);
-  /// The same of several systems, each with a solver of its own, that `couplings` join to one; all have a
-  /// correction, or none.
-  static LinearSolveReport solve_together(std::span<const SystemPart<Real>> parts,
-                                          const SystemCouplings<Real>& couplings, const SolveTarget& target,
-                                          int max_iterations);
+  /// `correction`, of all parts or none, is such an array too: what an earlier solve of a system much like
+  /// this one found beside its guess. This one begins with the best of the guess and the correction together,
+  /// and leaves its own there.
+  static LinearSolveReport solve(std::span<const SystemPart<Real>> parts,
+                                 const SystemCouplings<Real>& couplings, const SolveTarget& target,
+                                 int max_iterations);
 
  private:
   Bands bands_;

@@ -6,8 +6,8 @@
 namespace weft {
 namespace {
 
-/// Longest parts where cloth touches cloth, s: of an implicit step that finds all of it together, of others,
-/// and of explicit ones among several cloths; what is longer by a tenth of a part is rounding.
+/// Longest parts where cloth touches cloth, s: of an implicit step of one cloth, of others, and of explicit
+/// ones among several cloths; what is longer by a tenth of a part is rounding.
 constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kLongestInTurn = 1.0 / 240, kRounding = 0.1;
 /// Farthest that cloths go past each other in a part, in cells, and most parts made for that.
 constexpr double kMostCells = 4, kMostForCells = 4;

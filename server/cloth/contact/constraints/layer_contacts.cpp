@@ -110,7 +110,7 @@ void LayerContacts<Real>::add_to(std::span<const LayerSystem<Real>> systems, Sys
     c.coupling.stiffness = (c.stiffness - c.friction) * c.normal * c.normal.transpose() +
                            c.friction * Eigen::Matrix3d::Identity();
     if (const auto part = c.only_part()) {
-      systems[*part].couplings->add({c.coupling.node, c.coupling.weight, c.coupling.stiffness});
+      systems[*part].couplings->add(c.coupling);
     } else {
       between.add(c.coupling);
     }

@@ -53,7 +53,9 @@ struct HungSheet {
     each_node(grid, [&](int r, int c) {
       for (double* component : {found.x, found.y, found.z}) component[grid.index(r, c)] = 0;
     });
-    return ConjugateGradients<double>(grid).solve(system, b, found, {.least = target}, iterations);
+    ConjugateGradients<double> solver(grid);
+    const SystemPart<double> part{&solver, &system, b, found};
+    return ConjugateGradients<double>::solve({&part, 1}, {}, {.least = target}, iterations);
   }
 
   Grid grid;
@@ -143,7 +145,8 @@ TEST(ConjugateGradients, BeginWithTheEarlierCorrection) {
       sheet.x.x[i] = sheet.x.z[i] = 0;
       sheet.x.y[i] = guess * sheet.b.y[i];
     });
-    return solver.solve(sheet.system, sheet.b, sheet.x, {.least = enough}, 200, &correction);
+    const SystemPart<double> part{&solver, &sheet.system, sheet.b, sheet.x, &correction};
+    return ConjugateGradients<double>::solve({&part, 1}, {}, {.least = enough}, 200);
   };
   const LinearSolveReport first = solve(0), again = solve(0);
   EXPECT_GT(first.iterations, 10);
@@ -163,14 +166,13 @@ TEST(ConjugateGradients, SolveSystemsTogetherThatCouplingsJoin) {
   const std::size_t n = one.grid.index(8, 4), m = other.grid.index(16, 8);
   const Eigen::Matrix3d stiffness = Eigen::Vector3d(2e4, 1e4, 3e4).asDiagonal();
   SystemCouplings<double> couplings;
-  couplings.add({{0, 1, 0, 0}, {n, m, 0, 0}, {1, -1, 0, 0}, stiffness});
+  couplings.add({{{n, m, 0, 0}, {1, -1, 0, 0}, stiffness}, {0, 1, 0, 0}});
   other.b.x[m] = 0.3;
   ConjugateGradients<double> of_one(one.grid), of_other(other.grid);
   const std::array<SystemPart<double>, 2> parts{
       SystemPart<double>{&of_one, &one.system, one.b, one.x},
       SystemPart<double>{&of_other, &other.system, other.b, other.x}};
-  const LinearSolveReport report =
-      ConjugateGradients<double>::solve_together(parts, couplings, {.least = 1e-24}, 400);
+  const LinearSolveReport report = ConjugateGradients<double>::solve(parts, couplings, {.least = 1e-24}, 400);
   EXPECT_TRUE(report.converged);
   using Field = kernels::Components<const double>;
   const Vec3 force = stiffness * (weft::at(Field(one.x), n) - weft::at(Field(other.x), m));

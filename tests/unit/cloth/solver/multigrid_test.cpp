@@ -270,8 +270,8 @@ TEST_P(LinearSystem, SolutionIsThatOfSparseCholesky) {
   put(b, vectors_.vector(3));
   put(Eigen::VectorXd::Zero(unknowns_), vectors_.vector(6));
   ConjugateGradients<double> solver(grid_);
-  const LinearSolveReport report =
-      solver.solve(system_, vectors_.vector(3), vectors_.vector(6), {.least = 1e-24}, 500);
+  const SystemPart<double> part{&solver, &system_, vectors_.vector(3), vectors_.vector(6)};
+  const LinearSolveReport report = ConjugateGradients<double>::solve({&part, 1}, {}, {.least = 1e-24}, 500);
   EXPECT_TRUE(report.converged);
   // The last step's energy 1e-24 J on a matrix of at least 0.5 N/m leaves an error of about 1e-12 m, times
   // what the preconditioner's convergence (about 0.7 an iteration) still had to go.
@@ -292,9 +292,10 @@ TEST_P(LinearSystem, UnfinishedSolutionLosesEnergy) {
   const Eigen::VectorXd b = random_vector(5);
   put(b, vectors_.vector(3));
   ConjugateGradients<double> solver(grid_);
+  const SystemPart<double> part{&solver, &system_, vectors_.vector(3), vectors_.vector(6)};
   for (const int iterations : {0, 1, 2, 5}) {
     put(1000 * random_vector(6), vectors_.vector(6));
-    solver.solve(system_, vectors_.vector(3), vectors_.vector(6), {}, iterations);
+    ConjugateGradients<double>::solve({&part, 1}, {}, {}, iterations);
     const Eigen::VectorXd x = take(vectors_.vector(6));
     EXPECT_LE(0.5 * x.dot(reference_ * x) - b.dot(x), 0) << iterations;
   }
@@ -323,7 +324,8 @@ TEST_P(LinearSystem, BodiesMoveAsTheWholeSystemSays) {
   put(Eigen::VectorXd::Zero(unknowns_), x);
   bodies.eliminate(b);
   ConjugateGradients<double> solver(grid_);
-  const LinearSolveReport report = solver.solve(system_, b, x, {.least = 1e-24}, 500);
+  const SystemPart<double> part{&solver, &system_, b, x};
+  const LinearSolveReport report = ConjugateGradients<double>::solve({&part, 1}, {}, {.least = 1e-24}, 500);
   const double decrease = report.decrease + bodies.find_changes(x);
   EXPECT_TRUE(report.converged);
   // As above for the nodes alone; the light body's moves are as large as its nodes', of about 0.1 m.

@@ -18,7 +18,7 @@ TEST(SystemCouplings, PullAtTheNodesOfAllParts) {
   SystemCouplings<double> couplings;
   EXPECT_TRUE(couplings.empty());
   const Eigen::Matrix3d stiffness = Eigen::Vector3d(0, 100, 7).asDiagonal();
-  couplings.add({{1, 0, 0, 0}, {2, 0, 1, 0}, {1, -0.5, -0.5, 0}, stiffness});
+  couplings.add({{{2, 0, 1, 0}, {1, -0.5, -0.5, 0}, stiffness}, {1, 0, 0, 0}});
   weft::set(x[1], 2, Vec3(1, 3, 0));
   weft::set(x[0], 0, Vec3(0, 1, 0));
   weft::set(x[0], 1, Vec3(0, 0, 2));

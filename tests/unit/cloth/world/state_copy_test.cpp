@@ -153,6 +153,7 @@ std::vector<CopyCase> copy_cases() {
     add("gas" + by, bag_scene(integrator, 1), 20);
     add("heap" + by, test::dropped_on_edge(4, integrator), 30);
     add("caught" + by, test::caught(4, integrator), 20);
+    add("on_another" + by, test::on_a_slope(20, 0.3, integrator), 20);
   }
   add("torn_plate", tearing_scene(Bdf2Description{}, true), 20);
   add("gas_at_once", bag_scene(XpbdDescription{}, 0), 3);
