@@ -191,7 +191,7 @@ void add_cost(CLI::App& app, int& exit_code) {
                           ->check(CLI::IsMember(std::vector<std::string>(study::integrator_names().begin(),
                                                                          study::integrator_names().end())));
   command->add_option("--duration", options->duration, "Seconds of the scene that are studied")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-9, 1e6))
       ->capture_default_str();
   auto* budget =
       command
@@ -199,7 +199,7 @@ void add_cost(CLI::App& app, int& exit_code) {
                        "Wall time for the whole study, as 60s or 5min; what does not fit is skipped")
           ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"min", 60}, {"h", 3600}},
                                             CLI::AsNumberWithUnit::CASE_SENSITIVE))
-          ->check(CLI::PositiveNumber)
+          ->check(CLI::Range(1e-9, 1e6))
           ->capture_default_str();
   auto* html = command->add_option("--out", options->html, "Work-precision diagrams, as one HTML page");
   auto* csv = command->add_option("--csv", options->csv, "Every run, as CSV");

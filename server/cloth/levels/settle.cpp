@@ -32,26 +32,27 @@ bool hold_at_most(double energy, const Particles<Real>& particles, const Forces<
   return forces.sheet->energy(particles.position) <= energy;
 }
 
-/// Some free node is deeper in a solid than kShallow cells.
+/// Some free node is deeper in a solid than this, m.
 template <class Real>
-bool any_deep(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& still,
-              double cell) {
+bool any_deeper(double depth, const Particles<Real>& particles, Contact<Real>& contact,
+                const std::vector<Solid>& still) {
   const auto position = kernels::components(particles.position);
   const std::vector<Touch>& touches = contact.inside(particles, still, {});
   return std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
     const auto solid = std::find_if(still.begin(), still.end(),
                                     [&](const Solid& each) { return each.id == touch.collider; });
-    return -solid->gap(ClothPoint<Real>(touch.point(), particles).of(position), 0) > kShallow * cell;
+    return -solid->gap(ClothPoint<Real>(touch.point(), particles).of(position), 0) > depth;
   });
 }
 
-/// As they are when the step begins, at rest.
+/// As they are when the step begins, at rest, and smooth.
 std::vector<Solid> at_start(std::vector<Solid> solids) {
   for (Solid& solid : solids) {
     solid.rotation = solid.placed(0).rotation;
     solid.position = solid.start;
     solid.velocity = solid.turn = solid.spin = Vec3::Zero();
     solid.inverse_mass = 0;
+    solid.friction = 0;  // it would hold what is stretched across an edge, pressed to the solid by that
   }
   return solids;
 }
@@ -67,6 +68,10 @@ void stop(Particles<Real>& particles) {
 
 }  // namespace
 
+double shallow(const ClothDescription& cloth, const Grid& grid) {
+  return kShallow * cloth.size.maxCoeff() / std::max(grid.rows - 1, grid.cols - 1);
+}
+
 template <class Real>
 bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& solids) {
   std::vector<Solid> put;
@@ -81,7 +86,6 @@ bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   const ClothDescription& cloth = *forces.context.cloth;
   const Stiffness& along = cloth.material.structural;
   const double crossing = cloth.size.maxCoeff() * std::sqrt(cloth.material.density / along.least());
-  const double cell = cloth.size.maxCoeff() / std::max(particles.grid().rows - 1, particles.grid().cols - 1);
   const Particles<Real> before = particles;
   std::vector<Solid> still = at_start(solids);
   const Wind calm;
@@ -91,7 +95,7 @@ bool settle(Particles<Real>& particles, Unsettled by, Forces<Real> forces, Conta
   const auto relaxing = make_integrator<Real>(BackwardEulerDescription{});
   const auto fits_its_level = [&] {
     return hold_at_most(enough, particles, forces) &&
-           (contact == nullptr || !any_deep(particles, *contact, still, cell));
+           (contact == nullptr || !any_deeper(shallow(cloth, particles.grid()), particles, *contact, still));
   };
   bool sound = true, moved = false;
   for (int step = 0; step < steps_from(by) && sound; ++step) {

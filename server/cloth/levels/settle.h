@@ -21,6 +21,9 @@ enum class Unsettled {
   by_gas,
 };
 
+/// As deep as a node of the cloth at this grid may be in a solid that it lies on, m.
+double shallow(const ClothDescription& cloth, const Grid& grid);
+
 /// Whether a solid has just been put onto free nodes, as all are when the step begins.
 template <class Real>
 bool is_put_onto(const Particles<Real>& particles, Contact<Real>& contact, const std::vector<Solid>& solids);

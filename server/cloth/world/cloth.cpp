@@ -94,10 +94,13 @@ bool Cloth<Real>::apply_pending_level() {
   held_ = elastic_energy();
   had_ = held_ + energy_of_nodes();
   if (target > level_) held_ *= 1 + kRounded;
+  const bool by_area = description_.discretization == Discretization::continuum;
+  finer_.reset();
+  // The paper's own rules change levels as the paper does.
+  if (by_area && target < level_ && !torn_) finer_ = particles_;
   while (level_ != target) {
     const int next = level_ < target ? level_ + 1 : level_ - 1;
     Particles<Real> particles(description_.base_cells.at(next));
-    const bool by_area = description_.discretization == Discretization::continuum;
     if (next > level_) {
       split(particles_, particles);
       ++splits_;
@@ -113,9 +116,7 @@ bool Cloth<Real>::apply_pending_level() {
     }
     enter_level(next, std::move(particles));
   }
-  // The paper's own rules change levels as the paper does.
-  if (unsettled_ == Unsettled::no && description_.discretization == Discretization::continuum)
-    unsettled_ = Unsettled::by_level;
+  if (unsettled_ == Unsettled::no && by_area) unsettled_ = Unsettled::by_level;
   return true;
 }
 

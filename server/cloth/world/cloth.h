@@ -95,7 +95,7 @@ class Cloth {
   /// wakes.
   void change_pins(double time);
   /// As the first step after a change of level begins: pinned nodes that came with a finer level are lifted
-  /// out of these solids (lift_pins.h), and held there.
+  /// out of these solids (lift_nodes.h), and held there.
   void lift_new_pins(const std::vector<Solid>& solids);
   void disturb() { disturbed_ = true; }
   /// Where layers of cloth touch, of which the cloth is a part; kept by the caller. nullptr: nobody looks.
@@ -151,6 +151,8 @@ class Cloth {
   bool unsettled(const std::vector<Solid>& solids);
   /// Does so now, before whoever looks at where the step begins; otherwise advance() does.
   void settle_down(const std::vector<Solid>& solids, double time);
+  /// Before it: on a coarser level, passes these solids where it did on the finer one (keep_sides.h).
+  void keep_sides(const std::vector<Solid>& solids);
   /// The next step begins where the cloth has been settled: where nothing has stopped it.
   bool settled() const { return settled_ != Unsettled::no; }
   /// One step among the solids as they move in it in the world; what the cloth gives them is kept, and theirs
@@ -249,12 +251,13 @@ class Cloth {
   double total_mass_ = 0;
   int level_ = 0;
   std::optional<int> pending_level_;
-  Unsettled unsettled_ = Unsettled::no;  ///< to be settled before the next step
-  Unsettled settled_ = Unsettled::no;    ///< in this step already; again, if it is taken back
-  int splits_ = 0;                       ///< to finer levels since a step began
-  double held_ = 0;                      ///< J, by springs and plate before the last change of level
-  double had_ = 0;                       ///< J, all energy then
-  bool begins_ = false;                  ///< where its description has put it, which no step has seen
+  std::optional<Particles<Real>> finer_;  ///< as it was on the level that it has left, while whole
+  Unsettled unsettled_ = Unsettled::no;   ///< to be settled before the next step
+  Unsettled settled_ = Unsettled::no;     ///< in this step already; again, if it is taken back
+  int splits_ = 0;                        ///< to finer levels since a step began
+  double held_ = 0;                       ///< J, by springs and plate before the last change of level
+  double had_ = 0;                        ///< J, all energy then
+  bool begins_ = false;                   ///< where its description has put it, which no step has seen
   Particles<Real> particles_;
   Pins<Real> pins_;
   double time_ = 0;        ///< s, at the end of the last step that was made

@@ -224,6 +224,11 @@ void ClothContact<Real>::end_step(std::vector<Cloth<Real>>& cloths, double dt) {
   read(cloths, nodes_.end);
   read_masses(cloths);
   weigh_down(cloths);
+  stop_what_meets(cloths, dt);
+}
+
+template <class Real>
+void ClothContact<Real>::stop_what_meets(std::vector<Cloth<Real>>& cloths, double dt) {
   for (int round = 0; round < kNetRounds; ++round) {
     if (!net_.apply(search_, nodes_) || !move_on(cloths, dt)) return;
   }

@@ -4,6 +4,7 @@
 
 #include "cloth/contact/constraints/layer_contacts.h"
 #include "cloth/contact/recovery/collision_net.h"
+#include "cloth/contact/recovery/layer_order.h"
 #include "cloth/core/disjoint_sets.h"
 #include "cloth/core/effect_description.h"
 
@@ -23,9 +24,11 @@ class Cloth;
 /// The thickness is held to half a cell: at a level so fine that cells are smaller, neighbours on a flat
 /// sheet would push each other.
 ///
-/// Cloth may begin entangled, and split, merge, settling and solids that leave it no other way may make it
-/// so; nothing else does. Nodes of triangles that an edge passes through are left alone, by contact and net,
-/// and led out of each other (untangling_moves) until none does. Torn cells are not there (FeatureSearch).
+/// Cloth may begin entangled, and merges and solids that leave it no other way may make it so; nothing else
+/// does: what a merge puts through each other is led back into its order (keep_order), and the net stops what
+/// settling would move through other cloth, too. Nodes of triangles that an edge passes through are left
+/// alone, by contact and net, and led out of each other (untangling_moves) until none does. Torn cells are
+/// not there (FeatureSearch).
 template <class Real>
 class ClothContact {
  public:
@@ -33,6 +36,11 @@ class ClothContact {
 
   const ClothContactEffect& parameters() const { return parameters_; }
 
+  /// Before cloths settle (levels/settle.h), some of them, each as if it were alone: leads what is entangled
+  /// out of each other.
+  void begin_settling(std::vector<Cloth<Real>>& cloths);
+  /// After it, as after a step of dt seconds, but all keep the velocities that they have.
+  void end_settling(std::vector<Cloth<Real>>& cloths, double dt);
   /// Before the cloths' step of dt seconds: finds the pairs, and says who keeps whom from sleep.
   void begin_step(std::vector<Cloth<Real>>& cloths, double dt);
   /// Hands the pairs to the cloths, in groups of those that are stepped together; `steps` says of each
@@ -68,6 +76,8 @@ class ClothContact {
   /// To the net, what goes on lying on solids is harder to move: it cannot give way into them.
   void weigh_down(const std::vector<Cloth<Real>>& cloths);
   void untangle(std::vector<Cloth<Real>>& cloths);
+  /// The net, over the nodes' ways.
+  void stop_what_meets(std::vector<Cloth<Real>>& cloths, double dt);
   /// What the net has moved, in the cloths. True if solids were in its way: then those nodes are where they
   /// let them, here as well, and harder to move.
   bool move_on(std::vector<Cloth<Real>>& cloths, double dt);
@@ -102,6 +112,12 @@ class ClothContact {
       archive(pair, implicitly);
     }
   };
+  /// Pairs of cloths at these grids, by the nodes that they have now.
+  std::vector<OrderedLayers> layers_now(const std::vector<FoundPair>& pairs,
+                                        const std::vector<Grid>& grids) const;
+  /// Leads them apart where merges have put them through each other.
+  void keep_order(const std::vector<OrderedLayers>& layers, std::vector<Cloth<Real>>& cloths);
+
   std::vector<FoundPair> pairs_;  ///< of the step
   /// Of a cloth among the groups.
   struct Place {

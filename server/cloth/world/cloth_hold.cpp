@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cloth/levels/lift_pins.h"
+#include "cloth/levels/lift_nodes.h"
 #include "cloth/world/cloth.h"
 
 namespace weft {
@@ -78,10 +78,9 @@ void Cloth<Real>::change_pins(double time) {
 
 template <class Real>
 void Cloth<Real>::lift_new_pins(const std::vector<Solid>& solids) {
-  const int splits = std::exchange(splits_, 0);
-  if (splits == 0 || description_.pins.empty() || solids.empty()) return;
+  if (splits_ == 0 || description_.pins.empty() || solids.empty()) return;
   const double elastic = elastic_energy(), of_nodes = energy_of_nodes();
-  if (!weft::lift_new_pins(splits, seen(solids), particles_)) return;
+  if (!weft::lift_new_pins(splits_, seen(solids), particles_)) return;
   if (bag_) bag_->join(particles_);
   // Stretched from chords onto a surface, what is between pins keeps that energy: no motion is to pay for it.
   held_ += elastic_energy() - elastic;

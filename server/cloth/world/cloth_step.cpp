@@ -11,40 +11,6 @@
 #include "cloth/world/cloth.h"
 
 namespace weft {
-namespace {
-
-/// Of one step of relaxation, s, whatever the scene's steps and their parts: a cloth is left in the same
-/// state by whichever integrator it is stepped.
-constexpr double kLongestRelaxation = 1.0 / 60;
-
-}  // namespace
-
-template <class Real>
-bool Cloth<Real>::unsettled(const std::vector<Solid>& solids) {
-  const bool just_put = std::any_of(solids.begin(), solids.end(), [](const Solid& s) { return s.just_put; });
-  if (just_put && is_put_onto(particles_, contact(), seen(solids))) {
-    unsettled_ = Unsettled::by_solid;
-    wake();
-  }
-  return unsettled_ != Unsettled::no && !asleep() && !frozen();
-}
-
-template <class Real>
-void Cloth<Real>::settle_down(const std::vector<Solid>& solids, double time) {
-  if (unsettled_ == Unsettled::no) return;
-  settled_ = std::exchange(unsettled_, Unsettled::no);
-  bool moved = false;
-  try {
-    const WorkLimit limit(most_work_);
-    moved = settle(particles_, settled_, forces({.cloth = &description_, .time = time}),
-                   solids.empty() ? nullptr : &contact(), seen(solids), kLongestRelaxation, held_);
-  } catch (const TooMuchWork&) {
-    guard_.put_back(particles_);
-  }
-  // Springs that expand against a pin lift the sheet: at one pin a merge gave 2 m of cloth 0.15 J of height.
-  if (moved && settled_ == Unsettled::by_level)
-    take_from_motion(particles_, std::max(0.0, elastic_energy() + energy_of_nodes() - had_));
-}
 
 template <class Real>
 AdvanceReport Cloth<Real>::advance(const std::vector<Solid>& solids, const Air& air, double time, double dt) {
@@ -143,6 +109,8 @@ void Cloth<Real>::end_advance(const std::vector<Solid>& solids, double time, dou
   sleep_.stepped(guard_.speed(), dt, particles_, solids);
   time_ = time + dt;
   settled_ = Unsettled::no;
+  finer_.reset();
+  splits_ = 0;
   nodes_in_contact_ = report.nodes_in_contact;
   if (tearing_) tear();
 }
@@ -242,8 +210,6 @@ void Cloth<Real>::forget_attempt() {
   nodes_in_contact_ = 0;
 }
 
-template bool Cloth<float>::unsettled(const std::vector<Solid>&);
-template void Cloth<float>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<float>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<float> Cloth<float>::forces(const EffectContext&);
 template bool Cloth<float>::begin_advance(const std::vector<Solid>&, const Air&, double, double);
@@ -261,8 +227,6 @@ template void Cloth<float>::end_advance(const std::vector<Solid>&, double, doubl
 template Drive Cloth<float>::drive(const Forces<float>&, double) const;
 template const VectorField<float>* Cloth<float>::node_air(const Air&, double, double);
 template void Cloth<float>::forget_attempt();
-template bool Cloth<double>::unsettled(const std::vector<Solid>&);
-template void Cloth<double>::settle_down(const std::vector<Solid>&, double);
 template AdvanceReport Cloth<double>::advance(const std::vector<Solid>&, const Air&, double, double);
 template Forces<double> Cloth<double>::forces(const EffectContext&);
 template bool Cloth<double>::begin_advance(const std::vector<Solid>&, const Air&, double, double);

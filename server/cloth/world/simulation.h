@@ -153,7 +153,7 @@ class Simulation {
   void for_each(std::size_t count, const Work& work);
   /// Those that have to settle do so before contact between cloths looks where they are: what the step then
   /// keeps apart would else be held in a shape that is not settled.
-  void settle_cloths(double time);
+  void settle_cloths(double time, double dt);
   /// All cloths through the step, as it is for each of them alone.
   void advance_cloths(double time, double dt);
   void collect_guard_events();

@@ -52,7 +52,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   meet_bodies(pins, dt);
   join_bodies();
   if (cloths_.size() > 1) share_balls(dt);
-  settle_cloths(time);
+  settle_cloths(time, dt);
   double layers = 0;  // s
   if (layers_) {
     const auto search = Clock::now();
@@ -142,16 +142,21 @@ void Simulation<Real>::for_each(std::size_t count, const Work& work) {
 }
 
 template <class Real>
-void Simulation<Real>::settle_cloths(double time) {
+void Simulation<Real>::settle_cloths(double time, double dt) {
   const std::vector<Solid>& solids = colliders_.solids();
   std::vector<char> unsettled(cloths_.size());
   std::transform(cloths_.begin(), cloths_.end(), unsettled.begin(),
                  [&](Cloth<Real>& cloth) { return cloth.unsettled(solids) ? 1 : 0; });
   if (std::none_of(unsettled.begin(), unsettled.end(), [](char each) { return each != 0; })) return;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    if (unsettled[i] != 0) cloths_[i].keep_sides(solids);
+  }
+  if (layers_) layers_->begin_settling(cloths_);
   for_each(cloths_.size(), [&](int i) {
     const auto cloth = static_cast<std::size_t>(i);
     if (unsettled[cloth] != 0) cloths_[cloth].settle_down(solids, time);
   });
+  if (layers_) layers_->end_settling(cloths_, dt);
 }
 
 template <class Real>
@@ -212,7 +217,7 @@ template void Simulation<float>::meet_bodies(const std::vector<PinnedNode>&, dou
 template void Simulation<float>::join_bodies();
 template void Simulation<float>::add_body_impulses();
 template void Simulation<float>::share_balls(double);
-template void Simulation<float>::settle_cloths(double);
+template void Simulation<float>::settle_cloths(double, double);
 template void Simulation<float>::advance_cloths(double, double);
 template void Simulation<float>::collect_guard_events();
 template void Simulation<double>::step();
@@ -223,7 +228,7 @@ template void Simulation<double>::meet_bodies(const std::vector<PinnedNode>&, do
 template void Simulation<double>::join_bodies();
 template void Simulation<double>::add_body_impulses();
 template void Simulation<double>::share_balls(double);
-template void Simulation<double>::settle_cloths(double);
+template void Simulation<double>::settle_cloths(double, double);
 template void Simulation<double>::advance_cloths(double, double);
 template void Simulation<double>::collect_guard_events();
 

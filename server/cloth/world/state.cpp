@@ -76,7 +76,7 @@ void Cloth<Real>::serialize(Archive& archive) {
   serialize_sheet(archive);
   serialize_integrator(archive);
   serialize_contact(archive);
-  archive(unsettled_, settled_, splits_, held_, had_, begins_, time_);
+  archive(finer_, unsettled_, settled_, splits_, held_, had_, begins_, time_);
   std::optional<Gas<Real>> shut_in;
   if (gas() != nullptr) shut_in = *gas();
   bool filled = shut_in.has_value();

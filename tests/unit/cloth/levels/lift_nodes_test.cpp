@@ -1,5 +1,5 @@
-// Pinned nodes that come with a finer level leave the solids that their coarser neighbours lie on.
-#include "cloth/levels/lift_pins.h"
+// Nodes that come with a finer level leave the solids that their coarser neighbours lie on.
+#include "cloth/levels/lift_nodes.h"
 
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/world/simulation.h"
@@ -42,7 +42,7 @@ Solid rail(double radius, double half) {
 const double kDiagonal = std::sqrt(0.5);
 
 // On a rail at 0, 45 and 90 degrees, they belong to 22.5 and 67.5 degrees: the chord's normal is the arc's.
-TEST(LiftPins, ThoseOnChordsOfARailGoOntoItsSurface) {
+TEST(LiftNewNodes, ThoseOnChordsOfARailGoOntoItsSurface) {
   for (const double depth : {0.0, 0.1}) {
     const double radius = 1 - depth;  // where the coarser level's are held, on the surface or inside
     Particles<double> sheet =
@@ -60,7 +60,41 @@ TEST(LiftPins, ThoseOnChordsOfARailGoOntoItsSurface) {
   }
 }
 
-TEST(LiftPins, FreeNodesAndThoseOutsideStay) {
+TEST(LiftNewNodes, FreeOnesDoSoWhereTheyAreDeep) {
+  const double deep = 1 - std::cos(std::acos(0.0) / 4);  // of the chords' middles
+  Particles<double> sheet = strip({0, 1, 0}, {kDiagonal, kDiagonal, 0}, {1, 0, 0});
+  const Particles<double> before = sheet;
+  EXPECT_FALSE(lift_new_free_nodes(1, {rail(1, 10)}, 0, sheet));  // all are pinned
+  each_node(sheet.grid(), [&](int r, int c) { sheet.inverse_mass.at(r, c) = 1; });
+  EXPECT_FALSE(lift_new_free_nodes(1, {rail(1, 10)}, 1.01 * deep, sheet));
+  EXPECT_TRUE(lift_new_free_nodes(1, {rail(1, 10)}, 0.99 * deep, sheet));
+  each_node(sheet.grid(), [&](int r, int c) {
+    const double angle = std::acos(0.0) * c / 4;
+    EXPECT_LT((sheet.position_at(r, c) - Vec3(std::sin(angle), std::cos(angle), 0.5 * r)).norm(), 1e-12);
+  });
+}
+
+// The same of free nodes, at a top of 3 cm: the chord's direction is (0.6, -0.8), its node 2 cm deep.
+TEST(LiftNewNodes, AtATablesEdgeFreeOnesDoNotLeaveItBelow) {
+  Particles<double> coarse(Grid::with_nodes(2, 2)), once(Grid::with_nodes(3, 3)),
+      fine(Grid::with_nodes(5, 5));
+  for (int r = 0; r < 2; ++r) {
+    set(coarse.position, r, 0, Vec3(-0.05, 0, 0.1 * r));
+    set(coarse.position, r, 1, Vec3(0.01, -0.08, 0.1 * r));
+  }
+  split(coarse, once);
+  split(once, fine);
+  each_node(fine.grid(), [&](int r, int c) { fine.inverse_mass.at(r, c) = 1; });
+  const Solid table = standing(Box{{0.5, 0.015, 1}}, {-0.5, -0.015, 0});
+  EXPECT_LT(table.placed(0).surface(fine.local_position_at(0, 1)).normal.y(), 0);  // the nearest way
+  EXPECT_TRUE(lift_new_free_nodes(2, {table}, 1e-4, fine));
+  for (int r = 0; r < 5; ++r) {
+    const Vec3 wanted(-0.035 + 0.02 * 0.8 / 0.6, 0, 0.025 * r);
+    EXPECT_LT((fine.local_position_at(r, 1) - wanted).norm(), 1e-12) << r;
+  }
+}
+
+TEST(LiftNewNodes, FreeNodesAndThoseOutsideStay) {
   Particles<double> sheet = strip({0, 1, 0}, {kDiagonal, kDiagonal, 0}, {1, 0, 0});
   const Particles<double> before = sheet;
   EXPECT_FALSE(lift_new_pins(1, {rail(0.9, 10)}, sheet));  // a chord is 0.924 m from the axis
@@ -71,10 +105,10 @@ TEST(LiftPins, FreeNodesAndThoseOutsideStay) {
   });
 }
 
-// A sheet over the edge of a table's top, 2 cm thick, whose lower side is nearer to the chord. The node, a
-// quarter of the way down, looks 3/4 as what lies on the top does, up, and 1/4 as what hangs 5 cm from the
-// lower edge does, (0.6, -0.8): along (0.15, 0.55).
-TEST(LiftPins, TheyLeaveAThinSolidToTheSideThatTheClothIsOn) {
+// A sheet over the edge of a table's top, 2 cm thick, whose lower side is nearer to the chord. Of the node, a
+// quarter of the way down, one neighbour lies on the top and looks up, the other is below it and looks down:
+// it goes across the chord, whose direction is (0.8, -0.6), by 15 mm / 0.8.
+TEST(LiftNewNodes, TheyLeaveAThinSolidToTheSideThatTheClothIsOn) {
   Particles<double> coarse(Grid::with_nodes(2, 2)), fine(Grid::with_nodes(5, 5));
   for (int r = 0; r < 2; ++r) {
     set(coarse.position, r, 0, {-0.05, 0.01, 0.1 * r});
@@ -85,12 +119,12 @@ TEST(LiftPins, TheyLeaveAThinSolidToTheSideThatTheClothIsOn) {
   split(between, fine);
   ASSERT_LT((fine.position_at(0, 1) - Vec3(-0.03, -0.005, 0)).norm(), 1e-15);
   EXPECT_TRUE(lift_new_pins(2, {standing(Box{{1, 0.01, 1}}, {-1, 0, 0})}, fine));
-  EXPECT_LT((fine.position_at(0, 1) - Vec3(-0.03 + 0.015 * 0.15 / 0.55, 0.01, 0)).norm(), 1e-12);
+  EXPECT_LT((fine.position_at(0, 1) - Vec3(-0.03 + 0.015 * 0.6 / 0.8, 0.01, 0)).norm(), 1e-12);
   EXPECT_EQ(fine.position_at(0, 2), between.position_at(0, 1));  // under the top, in nothing
 }
 
 // A floor through the rail's axis: a chord from the rail to the floor lies in both.
-TEST(LiftPins, OutOfOneSolidTheyDoNotStayInAnother) {
+TEST(LiftNewNodes, OutOfOneSolidTheyDoNotStayInAnother) {
   Particles<double> sheet = strip({-2, 0, 0}, {-0.6, 0.8, 0}, {0.6, 0.8, 0});
   const std::vector<Solid> both{rail(1, 10), standing(HalfSpace{}, {0, 0.3, 0})};
   EXPECT_TRUE(lift_new_pins(1, both, sheet));
@@ -141,7 +175,7 @@ double depth_of_pins(const Simulation<float>& simulation) {
 }
 
 // A chord of a cell, 0.125 m, lies 0.125^2 / (8 kRailRadius) = 4.1 mm deep in the rail.
-TEST(LiftPins, AFinerLevelOfAClothOnARailShowsNothingOfIt) {
+TEST(LiftNewNodes, AFinerLevelOfAClothOnARailShowsNothingOfIt) {
   for (const Discretization rules : {Discretization::continuum, Discretization::paper}) {
     SimulationDescription scene = on_a_rail();
     scene.cloths[0].discretization = rules;
@@ -158,7 +192,7 @@ TEST(LiftPins, AFinerLevelOfAClothOnARailShowsNothingOfIt) {
 
 // All that is bent is pinned, so that no free node is in the rail: what is stretched from chords to arcs is
 // between pins, 15 degrees by (7.5 degrees in rad)^2 / 6 = 0.3 %.
-TEST(LiftPins, NoMotionPaysForIt) {
+TEST(LiftNewNodes, NoMotionPaysForIt) {
   SimulationDescription scene = on_a_rail();
   scene.cloths[0].pins = {{0.125, 0.875, 0, 1}};
   Simulation<float> simulation(scene);
@@ -175,7 +209,7 @@ TEST(LiftPins, NoMotionPaysForIt) {
 }
 
 // The node between the patch's middle one and the next of level 4, after a step of 0.6 m/s upwards.
-TEST(LiftPins, ThoseOnAPathGoOnFromWhereTheyWereLifted) {
+TEST(LiftNewNodes, ThoseOnAPathGoOnFromWhereTheyWereLifted) {
   SimulationDescription scene = on_a_rail();
   const double dt = scene.time_step;
   scene.cloths[0].pins[0].path = {{dt, {0, 0, 0}}, {dt + 1, {0, 0.6, 0}}};
@@ -187,7 +221,7 @@ TEST(LiftPins, ThoseOnAPathGoOnFromWhereTheyWereLifted) {
   EXPECT_NEAR(std::hypot(at.x(), at.y() - 0.6 * dt), kRailRadius, 1e-6);
 }
 
-TEST(LiftPins, AStateThatIsSavedBetweenLevelAndStepGoesOnToTheSameBits) {
+TEST(LiftNewNodes, AStateThatIsSavedBetweenLevelAndStepGoesOnToTheSameBits) {
   Simulation<float> simulation(on_a_rail()), other(on_a_rail());
   simulation.step();
   simulation.cloths()[0].request_level(6);
