@@ -51,7 +51,7 @@ class LevelChange : public ImplicitMethod {
 };
 
 // 0.6 m of cloth or more hang on each side; cloth that came off would lie on the floor. A rail is as thick as
-/// a fifth of a coarse cell or more: of thinner ones some let go.
+// a fifth of a coarse cell or more: cloth comes off some thinner ones.
 TEST_P(LevelChange, ToACoarserOneLeavesClothOnItsRail) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{6, 4}, {5, 4}, {6, 5}}};
   for (int k = 0; k < 16; ++k) {
@@ -77,8 +77,8 @@ TEST_P(LevelChange, ToACoarserOneLeavesClothOnItsRail) {
   }
 }
 
-// Over a sharp edge, and more so at a corner, a spring may stay hooked, whose pull the side face bears: there
-// the energy may be more for good: by 0.28 of it at most here.
+// Over the sharp edge of a box, and more so at its corner, a spring may stay hooked, whose pull the side face
+// bears: the energy is then up to 1.28 of the start's, the strain up to 0.44.
 TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{4, 6}, {4, 5}, {5, 6}}};
   for (int k = 0; k < 16; ++k) {
@@ -110,8 +110,8 @@ TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
     const std::string which = "table " + std::to_string(k) + ": " + std::to_string(width) + " m under " +
                               std::to_string(side) + " m, " + std::to_string(coarse) + " to " +
                               std::to_string(fine);
-    EXPECT_LT(most, energy * (round ? 1.001 : 1.4)) << which;
-    EXPECT_LT(simulation.report(0).strain.max, round ? 0.03 : 1) << which;
+    EXPECT_LT(most, energy * (round ? 1.001 : 1.3)) << which;
+    EXPECT_LT(simulation.report(0).strain.max, round ? 0.03 : 0.5) << which;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 
 #include "cloth/core/grid.h"
 
@@ -12,19 +13,28 @@ struct Chord {
   std::array<double, 4> weight{};     ///< 0: no such node
 };
 
+/// Calls visit(row, col, weight) for the nodes between which a node lies, as Eq. 8 weights them; their rows
+/// and columns are `stride` apart.
+template <class Visit>
+void for_each_around(int row, int col, int stride, Visit visit) {
+  const int top = row - row % stride, left = col - col % stride;
+  for (const int r : {top, top + stride}) {
+    for (const int c : {left, left + stride}) {
+      const double weight =
+          (1 - std::abs(row - r) / double(stride)) * (1 - std::abs(col - c) / double(stride));
+      if (weight != 0) visit(r, c, weight);
+    }
+  }
+}
+
 /// Of the fine node in this row and column, where the coarse grid has every `stride`-th row and column.
 inline Chord chord_of(int row, int col, int stride, const Grid& coarse) {
   Chord chord;
-  const int top = row / stride, left = col / stride;
-  const double down = row % stride / double(stride), right = col % stride / double(stride);
-  for (int i = 0; i < 4; ++i) {
-    const int below = i / 2, beside = i % 2;
-    const double weight = (below == 1 ? down : 1 - down) * (beside == 1 ? right : 1 - right);
-    if (weight == 0) continue;
-    const auto k = static_cast<std::size_t>(i);
-    chord.node[k] = coarse.index(top + below, left + beside);
-    chord.weight[k] = weight;
-  }
+  std::size_t count = 0;
+  for_each_around(row, col, stride, [&](int r, int c, double weight) {
+    chord.node[count] = coarse.index(r / stride, c / stride);
+    chord.weight[count++] = weight;
+  });
   return chord;
 }
 

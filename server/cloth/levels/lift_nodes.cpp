@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/levels/chord.h"
+
 namespace weft {
 namespace {
 
@@ -11,20 +13,6 @@ namespace {
 constexpr int kRounds = 4;
 /// A sum of normals shorter than this says no direction: the nodes around lie on opposite sides.
 constexpr double kOpposite = 1e-6;
-
-/// Calls visit(row, col, weight) for the nodes between which a node lies, as Eq. 8 weights them; their rows
-/// and columns are `stride` apart.
-template <class Visit>
-void for_each_around(int row, int col, int stride, Visit visit) {
-  const int top = row - row % stride, left = col - col % stride;
-  for (const int r : {top, top + stride}) {
-    for (const int c : {left, left + stride}) {
-      const double weight =
-          (1 - std::abs(row - r) / double(stride)) * (1 - std::abs(col - c) / double(stride));
-      if (weight != 0) visit(r, c, weight);
-    }
-  }
-}
 
 /// Across the sheet of the coarser level where a new node lies; unit, or 0 where the cell has no area.
 template <class Real>
