@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {inStripe, repeatOf} from '../../web/fabric/stripes.js';
-import {openPage, startServer, until} from './harness.mjs';
+import {openPage, pauseAfter, startServer, until} from './harness.mjs';
 
 test('a picture has a weave and its stripes a whole number of times', () => {
   assert.deepEqual(repeatOf({thread: 0.002}, {threads: 64, period: 2}), {threads: 64, metres: 0.128});
@@ -20,7 +20,10 @@ test('a stripe of three bands has gaps as wide as its bands', () => {
 });
 
 let server;
-before(async () => (server = await startServer([fileURLToPath(new URL('scenes/looks.json', import.meta.url))])));
+before(async () => {
+  server = await startServer([fileURLToPath(new URL('scenes/looks.json', import.meta.url))]);
+  await pauseAfter(server, 'looks', 1);
+});
 
 /** The colour in the middle of the picture, [r, g, b]. */
 async function middle(page) {

@@ -23,7 +23,7 @@ export const openByHand = (server, scene, viewport, {phone = false} = {}) =>
 
 /** Events have times of their own there: however late a busy machine brings them, the hand was as fast. */
 async function openInChromium(server, scene, window) {
-  const {page, witness: {errors}} = await openScene(server, scene, window);
+  const {page, witness: {errors}} = await openScene(server, scene, {pictures: null, ...window});  // a hand is followed at every one
   const session = await page.context().newCDPSession(page);
   let timestamp = Date.now() / 1000;
   const touch = (type, ...points) => session.send('Input.dispatchTouchEvent',

@@ -47,6 +47,20 @@ export async function startServer(scenes, {port = 0, page = process.env.WEFT_PAG
 /** Firefox itself logs a socket that its page closes before it is open, as a page does that is hidden just then: as the page's error, or as the console's. */
 const kFirefoxOwn = /^Firefox can’t establish a connection to |^The connection to ws\S+ was interrupted while the page was loading/;
 
+/** Pictures a second that a page draws here: the processor makes each, and the scenes need it. */
+const kPictures = 15;
+
+/** Has a page come to draw at most so many times a second. */
+function drawSeldom(pictures) {
+  const ask = window.requestAnimationFrame.bind(window), asked = new Set();
+  window.requestAnimationFrame = (draw) => {
+    const id = setTimeout(() => ask((time) => asked.delete(id) && draw(time)), 1000 / pictures);
+    asked.add(id);
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => asked.delete(id);
+}
+
 /** Every page opened so far logs here what it must not do. */
 export class Witness {
   constructor(page) {
@@ -63,17 +77,19 @@ export class Witness {
 }
 
 /**
- * Opens a page in a window of its own; `before` is what it does before anything else.
+ * Opens a page in a window of its own; `before` is what it does before anything else. It draws `pictures` a second, or as many as the
+ * browser asks for if null: `weft.stats.settled` only ever holds while a scene runs if each frame is drawn.
  * @returns {Promise<{page: import('playwright-core').Page, witness: Witness}>}
  */
 export async function openPage(address, options = {}) {
   browser ??= await openBrowser();
-  const {before, ...window} = options;
+  const {before, pictures = kPictures, ...window} = options;
   const page = await browser.newPage({viewport: {width: 900, height: 640}, deviceScaleFactor: 0.25, reducedMotion: 'reduce', ...window});
   page.setDefaultTimeout(kPatienceMs);
   const witness = new Witness(page);
   // WebDriver cannot set what the viewer prefers: Firefox's page is told by its own question.
   if (kFirefox) await page.addInitScript(preferMotion, window.reducedMotion ?? 'reduce');
+  if (pictures) await page.addInitScript(drawSeldom, pictures);
   if (before) await page.addInitScript(before);
   await page.goto(address);
   return {page, witness};

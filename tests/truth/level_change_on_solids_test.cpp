@@ -144,7 +144,8 @@ TEST_P(LevelChange, KeepsTwoClothsApart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Implicit, LevelChange, ::testing::ValuesIn(kImplicitMethods), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Implicit, LevelChange, ::testing::Values(Method::bdf2), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Nightly, LevelChange, ::testing::Values(Method::backward_euler), name_of_case);
 
 }  // namespace
 }  // namespace weft::test
