@@ -11,7 +11,8 @@ namespace {
 
 bool is_same(const PinRegion& a, const PinRegion& b) {
   return a.u_min == b.u_min && a.u_max == b.u_max && a.v_min == b.v_min && a.v_max == b.v_max &&
-         a.from == b.from && a.until == b.until && a.stiffness == b.stiffness;
+         a.from == b.from && a.until == b.until && a.stiffness == b.stiffness && a.obstacle == b.obstacle &&
+         a.ball == b.ball;
 }
 
 /// The solid that yields and has the region's places; the end if there is none.
@@ -25,47 +26,43 @@ auto body_of(const PinRegion& region, auto& solids) {
 }  // namespace
 
 template <class Real>
-SoftPins<Real>::SoftPins(const std::vector<PinRegion>& regions, const std::vector<Vec3>& pulls, double time,
-                         const Particles<Real>& particles)
-    : places_(particles) {
+SoftPins<Real>::SoftPins(const std::vector<PinRegion>& regions, double time, const Particles<Real>& particles,
+                         const SoftPins* before) {
+  const Grid& grid = particles.grid();
   const Real* mass = particles.mass.row(0);
-  const auto places = kernels::components(places_.position);
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    Held& held = held_.emplace_back(Held{regions[r], {}});
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (const PinRegion& region : regions) {
+    Held held{region, {}, {}};
+    const Held* had = before == nullptr ? nullptr : before->of(region);
+    held.places = had == nullptr ? PinPlaces<Real>(region, time, particles) : had->places;
     double sum = 0;
-    const std::vector<std::size_t> nodes = nodes_of(regions[r], particles.grid());
+    const std::vector<std::size_t> nodes = nodes_of(region, grid);
     for (const std::size_t node : nodes) sum += double(mass[node]);
     for (const std::size_t node : nodes) {
-      held.springs.push_back({node, regions[r].stiffness.value_or(0) * double(mass[node]) / sum});
-      set(places, node, Vec3(at<Real>(places, node) + pulls[r]));
+      const std::size_t row = node / stride, col = node % stride;
+      const double u = double(col) / (grid.cols - 1), v = double(row) / (grid.rows - 1);
+      held.springs.push_back(
+          {node, region.stiffness.value_or(0) * double(mass[node]) / sum, held.places.stencil(u, v)});
     }
+    held_.push_back(std::move(held));
   }
-  places_of_ = Pins<Real>(regions, time, places_);
+}
+
+template <class Real>
+auto SoftPins<Real>::of(const PinRegion& region) const -> const Held* {
+  const auto same = std::find_if(held_.begin(), held_.end(),
+                                 [&](const Held& held) { return is_same(held.region, region); });
+  return same == held_.end() ? nullptr : &*same;
 }
 
 template <class Real>
 template <class Visit>
-void SoftPins<Real>::for_each_spring(const Held& held, const Particles<Real>& particles, Visit visit) const {
-  const auto places = kernels::components(std::as_const(places_.position));
+void SoftPins<Real>::for_each_spring(const Held& held, const Particles<Real>& particles, double time,
+                                     Visit visit) {
+  held.places.carry(time);
   const auto nodes = kernels::components(particles.position);
-  const Vec3 apart = places_.place - particles.place;
   for (const Spring& spring : held.springs)
-    visit(spring, Vec3(apart + at<Real>(places, spring.node) - at<Real>(nodes, spring.node)));
-}
-
-template <class Real>
-Vec3 SoftPins<Real>::pull(const PinRegion& region, const Particles<Real>& particles, double time) const {
-  move_places(time);
-  Vec3 force(0, 0, 0);
-  double stiffness = 0;
-  for (const Held& held : held_) {
-    if (!is_same(held.region, region)) continue;
-    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
-      force += spring.stiffness * way;
-      stiffness += spring.stiffness;
-    });
-  }
-  return stiffness > 0 ? Vec3(force / stiffness) : force;
+    visit(spring, Vec3(held.places.at(spring.place) - particles.place - at<Real>(nodes, spring.node)));
 }
 
 template <class Real>
@@ -79,13 +76,13 @@ std::vector<BodySpring> SoftPins<Real>::on_bodies(const Particles<Real>& particl
     for (const Solid& solid : solids) in_world.push_back(solid.from(-particles.place));
     begin_step(in_world, time, dt);
   }
-  move_places(time + substep.to * dt);
+  const double end = time + substep.to * dt;
   for (const Held& held : held_) {
     const auto solid = body_of(held.region, solids);
     if (solid == solids.end()) continue;
     const Vec3 centre = particles.place + solid->at(substep.to);
-    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
-      const Vec3 arm = solid->yields_turning() ? Vec3(place_of(spring.node) - centre) : Vec3(0, 0, 0);
+    for_each_spring(held, particles, end, [&](const Spring& spring, const Vec3& way) {
+      const Vec3 arm = solid->yields_turning() ? Vec3(held.places.at(spring.place) - centre) : Vec3(0, 0, 0);
       springs.push_back(
           {spring.node, static_cast<std::size_t>(solid - solids.begin()), arm, way, spring.stiffness});
     });
@@ -96,14 +93,12 @@ std::vector<BodySpring> SoftPins<Real>::on_bodies(const Particles<Real>& particl
 template <class Real>
 void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& solids, double time,
                           double dt) const {
-  const auto places = kernels::components(std::as_const(places_.position));
   for (const Held& held : held_) {
     const auto solid = body_of(held.region, solids);
     if (solid == solids.end()) continue;
-    move_places(time);
     Vec3 impulse(0, 0, 0), turning(0, 0, 0);
-    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
-      const Vec3 arm = places_.place - particles.place + at<Real>(places, spring.node) - solid->position;
+    for_each_spring(held, particles, time, [&](const Spring& spring, const Vec3& way) {
+      const Vec3 arm = held.places.at(spring.place) - particles.place - solid->position;
       const Vec3 pull = -dt * spring.stiffness * way;
       impulse += pull;
       turning += arm.cross(pull);
@@ -116,10 +111,9 @@ void SoftPins<Real>::push(const Particles<Real>& particles, std::vector<Solid>& 
 template <class Real>
 void SoftPins<Real>::add_forces(const Particles<Real>& particles, const EffectContext& context,
                                 VectorField<Real>& force) const {
-  move_places(context.time);
   const auto total = kernels::components(force);
   for (const Held& held : held_) {
-    for_each_spring(held, particles, [&](const Spring& spring, const Vec3& way) {
+    for_each_spring(held, particles, context.time, [&](const Spring& spring, const Vec3& way) {
       total.x[spring.node] += static_cast<Real>(spring.stiffness * way.x());
       total.y[spring.node] += static_cast<Real>(spring.stiffness * way.y());
       total.z[spring.node] += static_cast<Real>(spring.stiffness * way.z());
@@ -129,7 +123,6 @@ void SoftPins<Real>::add_forces(const Particles<Real>& particles, const EffectCo
 
 template <class Real>
 double SoftPins<Real>::tension(const Particles<Real>& particles, const EffectContext& context) const {
-  move_places(context.time);
   const Vec2& size = context.cloth->size;
   const Grid& grid = particles.grid();
   double sum = 0;
@@ -138,7 +131,7 @@ double SoftPins<Real>::tension(const Particles<Real>& particles, const EffectCon
     const double width = std::max((region.u_max - region.u_min + 1.0 / (grid.cols - 1)) * size.x(),
                                   (region.v_max - region.v_min + 1.0 / (grid.rows - 1)) * size.y());
     Vec3 force(0, 0, 0);
-    for_each_spring(held, particles,
+    for_each_spring(held, particles, context.time,
                     [&](const Spring& spring, const Vec3& way) { force += spring.stiffness * way; });
     sum += force.norm() / width;
   }

@@ -4,8 +4,8 @@
 #include "cloth/contact/constraints/body_spring.h"
 #include "cloth/core/substep.h"
 #include "cloth/forces/effect.h"
+#include "cloth/forces/pin_places.h"
 #include "cloth/shapes/solid.h"
-#include "cloth/sheet/pins.h"
 
 namespace weft {
 
@@ -14,25 +14,24 @@ namespace weft {
 inline constexpr double kPinBound = 0.25;
 
 /// Pins with a stiffness: each of a region's nodes is drawn by an undamped spring to where a stiff pin would
-/// hold it, F_i = k m_i / m (place_i - x_i), with k the region's stiffness and m the mass of all its nodes.
-/// Shares by mass make the pin the same at every level: what it holds hangs W / k below its places, and
-/// swings with 2 pi sqrt(m / k) where nothing but its own nodes swings.
+/// hold it (PinPlaces), F_i = k m_i / m (place_i - x_i), with k the region's stiffness and m the mass of all
+/// its nodes. Shares by mass make the pin the same at every level: what it holds hangs W / k below its
+/// places, and swings with 2 pi sqrt(m / k) where nothing but its own nodes swings.
 template <class Real>
 class SoftPins final : public Effect<Real> {
  public:
   SoftPins() = default;
-  /// Of regions that have a stiffness, as the particles are at `time`, s. Their nodes' places are where these
-  /// are, and as far from there as `pulls` says, m: one of each region.
-  SoftPins(const std::vector<PinRegion>& regions, const std::vector<Vec3>& pulls, double time,
-           const Particles<Real>& particles);
+  /// Of regions that have a stiffness, as the particles are at `time`, s. Those that are among the pins of
+  /// `before` keep their places, whatever its level was; the others take hold of where their nodes are.
+  SoftPins(const std::vector<PinRegion>& regions, double time, const Particles<Real>& particles,
+           const SoftPins* before = nullptr);
 
   const char* name() const override { return "soft_pin"; }
-  /// From the region's nodes to their places at `time`, s, the mean by mass, m: a change of level keeps it. 0
-  /// of a region that is not among these.
-  Vec3 pull(const PinRegion& region, const Particles<Real>& particles, double time) const;
   /// As Pins::begin_step.
   bool begin_step(const std::vector<Solid>& solids, double time, double dt) {
-    return places_of_.moving() && places_of_.begin_step(places_, solids, time, dt);
+    bool moves = false;
+    for (Held& held : held_) moves = held.places.begin_step(solids, time, dt) || moves;
+    return moves;
   }
 
   /// Those on solids that yield, as seen in a substep of the step that has begun, from `time` on: with the
@@ -63,8 +62,10 @@ class SoftPins final : public Effect<Real> {
   /// m.
   template <class Visit>
   void for_each_place(double time, Visit visit) const {
-    move_places(time);
-    for_each_stiffness([&](std::size_t node, double) { visit(node, place_of(node)); });
+    for (const Held& held : held_) {
+      held.places.carry(time);
+      for (const Spring& spring : held.springs) visit(spring.node, held.places.at(spring.place));
+    }
   }
 
   void add_forces(const Particles<Real>& particles, const EffectContext& context,
@@ -80,40 +81,35 @@ class SoftPins final : public Effect<Real> {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(held_, places_of_, places_);
+    archive(held_);
   }
 
  private:
   struct Spring {
     std::size_t node;
     double stiffness;  ///< N/m
+    typename PinPlaces<Real>::Stencil place;
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(node, stiffness);
+      archive(node, stiffness, place);
     }
   };
   struct Held {
     PinRegion region;
+    PinPlaces<Real> places;
     std::vector<Spring> springs;
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(region, springs);
+      archive(region, places, springs);
     }
   };
-  /// Calls visit(spring, from the node to its place, m) for all of a region.
+  /// Calls visit(spring, from the node to its place at `time`, s, m) for all of a region.
   template <class Visit>
-  void for_each_spring(const Held& held, const Particles<Real>& particles, Visit visit) const;
-  Vec3 place_of(std::size_t node) const {
-    const VectorField<Real>& at = places_.position;
-    return places_.place + Vec3(at.x.values()[node], at.y.values()[node], at.z.values()[node]);
-  }
-  void move_places(double time) const {
-    if (places_of_.moving()) places_of_.carry(places_, time);
-  }
+  static void for_each_spring(const Held& held, const Particles<Real>& particles, double time, Visit visit);
+  /// The one of this region; nullptr if there is none.
+  const Held* of(const PinRegion& region) const;
 
   std::vector<Held> held_;
-  Pins<Real> places_of_;  ///< holds places_ where stiff pins would hold the cloth
-  mutable Particles<Real> places_;
 };
 
 extern template class SoftPins<float>;

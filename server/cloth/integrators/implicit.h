@@ -69,6 +69,7 @@ class Implicit final : public Integrator<Real> {
     bool touched = false;
     bool rubs = false;  ///< in the substep: something firm takes its momentum
     Freedom now = Freedom::none();
+    Vec3 hung_torque{0, 0, 0};  ///< in the substep (ContactConstraints::torque_beside_centres), N m
   };
   AdvanceReport advance(Particles<Real>& particles, Forces<Real> forces, Contact<Real>* contact,
                         std::vector<Solid>& solids, double time, double dt) override;

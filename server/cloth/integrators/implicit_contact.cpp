@@ -142,6 +142,8 @@ void Implicit<Real>::settle_substep(Step& step) {
       particles, forces,
       {formula.start(), formula.start_velocity(), forces.sheet->damped() ? &state_->way : nullptr,
        formula.lead(), step.part.seconds});
+  step.hung_torque =
+      contacts.torque_beside_centres(state_->move, particles, *step.solids, state_->system.bodies());
   step.now = step.unpushed;
   if (step.contact != nullptr && !step.unpushed.is_none()) {
     const auto firm = contacts.firm(step.contact->touches(), particles, *step.solids);

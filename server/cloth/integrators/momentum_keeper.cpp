@@ -130,6 +130,7 @@ auto MomentumKeeper<Real>::input(const Member& member, const Vec3& centre) -> In
     input.work += f.dot(way);
     input.moved += double(particles.mass.at(r, c)) * way;
   });
+  input.torque += member.hung_torque;
   const std::vector<Solid>& solids = *member.solids;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Solid &was = solids_[i], &is = solids[i];

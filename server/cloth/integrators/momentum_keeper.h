@@ -47,6 +47,8 @@ class MomentumKeeper {
     const Freedom* freedom;
     bool rubs;
     const Field<Real>* second_order;
+    Vec3 hung_torque;  ///< of soft pins on solids that do not turn, beside that of the same forces at the
+                       ///< solids' centres, N m
   };
   /// As it ends, after h seconds, of those that are stepped together. Returns by what the motion beside the
   /// free rigid one was multiplied (scale_motion).

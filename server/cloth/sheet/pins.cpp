@@ -29,16 +29,15 @@ void add_sewn(const Seam<Real>& seam, std::vector<std::size_t>& nodes) {
 
 std::vector<std::size_t> nodes_of(const PinRegion& region, const Grid& grid) {
   constexpr double kTolerance = 1e-9;
-  const auto inside = [](double x, double min, double max) {
+  const auto inside = [](int line, int count, double min, double max) {
+    const double x = count > 1 ? static_cast<double>(line) / (count - 1) : 0;
     return x >= min - kTolerance && x <= max + kTolerance;
   };
   std::vector<std::size_t> nodes;
   for (int r = 0; r < grid.rows; ++r) {
-    if (!inside(static_cast<double>(r) / (grid.rows - 1), region.v_min, region.v_max)) continue;
+    if (!inside(r, grid.rows, region.v_min, region.v_max)) continue;
     for (int c = 0; c < grid.cols; ++c) {
-      if (inside(static_cast<double>(c) / (grid.cols - 1), region.u_min, region.u_max)) {
-        nodes.push_back(grid.index(r, c));
-      }
+      if (inside(c, grid.cols, region.u_min, region.u_max)) nodes.push_back(grid.index(r, c));
     }
   }
   if (!nodes.empty()) return nodes;

@@ -122,7 +122,6 @@ bool Cloth<Real>::apply_pending_level() {
 
 template <class Real>
 void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
-  const std::vector<Vec3> pulled = pulls();
   level_ = level;
   particles_ = std::move(particles);
   mass_distribution(total_mass_, description_.discretization, particles_.mass);
@@ -134,7 +133,7 @@ void Cloth<Real>::enter_level(int level, Particles<Real> particles) {
     }
     bag_->join(particles_);
   }
-  hold(pulled);
+  hold();
   if (walls_) take_over_walls();
   make_sheet();
   earlier_contacts_ = contact_counters();

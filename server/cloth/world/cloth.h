@@ -210,11 +210,9 @@ class Cloth {
   /// Breaks what the step has loaded beyond its strength.
   void tear();
   Contact<Real>& contact();
-  /// How far each of the description's pins draws its nodes, m (SoftPins::pull).
-  std::vector<Vec3> pulls() const;
-  /// Makes the pins that hold at time_, of which soft ones draw their nodes so far.
-  void hold(const std::vector<Vec3>& pulls);
-  void set_pins(const std::vector<Vec3>& pulls);
+  /// Makes the pins that hold at time_; soft ones that held before keep their places.
+  void hold();
+  void set_pins();
   /// Of the cloth as it is, beside moving pins and layers.
   Forces<Real> forces(const EffectContext& context);
   /// advance_together(), until all states are good.

@@ -44,10 +44,8 @@ const std::vector<Grab>& Cloth<Real>::grabs() const {
 
 template <class Real>
 void Cloth<Real>::pin(const Vec2& at) {
-  std::vector<Vec3> pulled = pulls();
   description_.pins.push_back({at.x(), at.x(), at.y(), at.y()});
-  pulled.emplace_back(0, 0, 0);
-  set_pins(pulled);
+  set_pins();
 }
 
 template <class Real>
@@ -58,22 +56,19 @@ bool Cloth<Real>::unpin(const Vec2& at) {
     const Vec2 nearest(std::clamp(at.x(), pin.u_min, pin.u_max), std::clamp(at.y(), pin.v_min, pin.v_max));
     return (nearest - at).cwiseProduct(description_.size).norm();
   };
-  std::vector<Vec3> pulled = pulls();
   const auto nearest =
       std::min_element(pins.begin(), pins.end(),
                        [&](const PinRegion& a, const PinRegion& b) { return distance(a) < distance(b); });
-  pulled.erase(pulled.begin() + (nearest - pins.begin()));
   pins.erase(nearest);
-  set_pins(pulled);
+  set_pins();
   return true;
 }
 
 template <class Real>
 void Cloth<Real>::change_pins(double time) {
   if (time < next_pins_) return;
-  const std::vector<Vec3> pulled = pulls();
   time_ = time;
-  set_pins(pulled);
+  set_pins();
 }
 
 template <class Real>
@@ -85,43 +80,26 @@ void Cloth<Real>::lift_new_pins(const std::vector<Solid>& solids) {
   // Stretched from chords onto a surface, what is between pins keeps that energy: no motion is to pay for it.
   held_ += elastic_energy() - elastic;
   had_ += elastic_energy() - elastic + energy_of_nodes() - of_nodes;
-  hold(pulls());
+  hold();
   hand_to_guard();
 }
 
 template <class Real>
-std::vector<Vec3> Cloth<Real>::pulls() const {
-  std::vector<Vec3> all(description_.pins.size(), Vec3(0, 0, 0));
-  if (soft_pins_ == nullptr) return all;
-  std::transform(description_.pins.begin(), description_.pins.end(), all.begin(),
-                 [&](const PinRegion& pin) { return soft_pins_->pull(pin, particles_, time_); });
-  return all;
-}
-
-template <class Real>
-void Cloth<Real>::hold(const std::vector<Vec3>& pulls) {
+void Cloth<Real>::hold() {
   const std::vector<PinRegion>& pins = description_.pins;
   pins_ = Pins<Real>(acting(pins, time_, false), time_, particles_, seam());
   next_pins_ = next_change(pins, time_);
+  const std::vector<PinRegion> soft = acting(pins, time_, true);
+  auto made = soft.empty() ? nullptr : std::make_unique<SoftPins<Real>>(soft, time_, particles_, soft_pins_);
   std::erase_if(effects_, [&](const auto& effect) { return effect.get() == soft_pins_; });
-  soft_pins_ = nullptr;
-  std::vector<PinRegion> soft;
-  std::vector<Vec3> pulled;
-  for (std::size_t i = 0; i < pins.size(); ++i) {
-    if (acting({pins[i]}, time_, true).empty()) continue;
-    soft.push_back(pins[i]);
-    pulled.push_back(pulls[i]);
-  }
-  if (soft.empty()) return;
-  auto made = std::make_unique<SoftPins<Real>>(soft, pulled, time_, particles_);
   soft_pins_ = made.get();
-  effects_.insert(effects_.begin() + static_cast<std::ptrdiff_t>(composed_), std::move(made));
+  if (made) effects_.insert(effects_.begin() + static_cast<std::ptrdiff_t>(composed_), std::move(made));
 }
 
 template <class Real>
-void Cloth<Real>::set_pins(const std::vector<Vec3>& pulls) {
+void Cloth<Real>::set_pins() {
   guard_.repair(particles_);
-  hold(pulls);
+  hold();
   make_sheet();  // a plate is clamped where it is held
   integrator_->restart();
   hand_to_guard();
@@ -136,9 +114,8 @@ template void Cloth<float>::pin(const Vec2&);
 template bool Cloth<float>::unpin(const Vec2&);
 template void Cloth<float>::change_pins(double);
 template void Cloth<float>::lift_new_pins(const std::vector<Solid>&);
-template std::vector<Vec3> Cloth<float>::pulls() const;
-template void Cloth<float>::hold(const std::vector<Vec3>&);
-template void Cloth<float>::set_pins(const std::vector<Vec3>&);
+template void Cloth<float>::hold();
+template void Cloth<float>::set_pins();
 template void Cloth<double>::grab(const Grab&);
 template bool Cloth<double>::move_grab(GrabId, const Vec3&);
 template bool Cloth<double>::release(GrabId);
@@ -147,8 +124,7 @@ template void Cloth<double>::pin(const Vec2&);
 template bool Cloth<double>::unpin(const Vec2&);
 template void Cloth<double>::change_pins(double);
 template void Cloth<double>::lift_new_pins(const std::vector<Solid>&);
-template std::vector<Vec3> Cloth<double>::pulls() const;
-template void Cloth<double>::hold(const std::vector<Vec3>&);
-template void Cloth<double>::set_pins(const std::vector<Vec3>&);
+template void Cloth<double>::hold();
+template void Cloth<double>::set_pins();
 
 }  // namespace weft

@@ -77,6 +77,10 @@ class ContactConstraints {
   bool add_impulses(const AttachedBodies<Real>& bodies, std::vector<BodyTouch>& touches) const;
   /// The cloth's share of its mass and that of the solids that hang on it together; 1 without any.
   double hung_share(double mass, const std::vector<Solid>& solids) const;
+  /// After finish: the torque of what hangs on the cloth beside that of the same forces at the solids'
+  /// centres, N m. Of solids that do not turn, whose places are as far from their centres as they were.
+  Vec3 torque_beside_centres(kernels::Components<const Real> move, const Particles<Real>& particles,
+                             const std::vector<Solid>& solids, const AttachedBodies<Real>& bodies) const;
   /// Between Newton iterations: holds the nodes that are inside at `move`, or have passed a surface by it,
   /// and are not held yet, if it takes more energy than `missed`, J, to push them out one by one against
   /// links of this stiffness at a node, N/m. False if it holds no more than before.

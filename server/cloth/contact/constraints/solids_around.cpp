@@ -132,6 +132,24 @@ double ContactConstraints<Real>::hung_share(double mass, const std::vector<Solid
   return mass / sum;
 }
 
+template <class Real>
+Vec3 ContactConstraints<Real>::torque_beside_centres(kernels::Components<const Real> move,
+                                                     const Particles<Real>& particles,
+                                                     const std::vector<Solid>& solids,
+                                                     const AttachedBodies<Real>& bodies) const {
+  Vec3 torque(0, 0, 0);
+  const auto position = kernels::components(particles.position);
+  for (const Hung& hung : hung_) {
+    const BodySpring& spring = hung.spring;
+    const Solid& solid = solids[spring.solid];
+    if (solid.yields_turning()) continue;
+    const Vec3 force =
+        spring.stiffness * (spring.apart - hung.point.moved_by(move) + bodies.move(hung.body, spring.arm));
+    torque += (hung.point.of(position) - solid.at(substep_.to)).cross(force);
+  }
+  return torque;
+}
+
 template std::optional<int> ContactConstraints<float>::body_of(const Solid&, const std::vector<Solid>&,
                                                                AttachedBodies<float>&);
 template void ContactConstraints<float>::hang(const std::vector<BodySpring>&, const Particles<float>&,
@@ -149,7 +167,15 @@ template bool ContactConstraints<float>::add_impulses(const AttachedBodies<float
 template bool ContactConstraints<double>::add_impulses(const AttachedBodies<double>&,
                                                        std::vector<BodyTouch>&) const;
 template double ContactConstraints<float>::hung_share(double, const std::vector<Solid>&) const;
+template Vec3 ContactConstraints<float>::torque_beside_centres(kernels::Components<const float>,
+                                                               const Particles<float>&,
+                                                               const std::vector<Solid>&,
+                                                               const AttachedBodies<float>&) const;
 template double ContactConstraints<double>::hung_share(double, const std::vector<Solid>&) const;
+template Vec3 ContactConstraints<double>::torque_beside_centres(kernels::Components<const double>,
+                                                                const Particles<double>&,
+                                                                const std::vector<Solid>&,
+                                                                const AttachedBodies<double>&) const;
 template auto ContactConstraints<float>::firm(const std::vector<Touch>&, const Particles<float>&,
                                               const std::vector<Solid>&) const -> Firm;
 template auto ContactConstraints<double>::firm(const std::vector<Touch>&, const Particles<double>&,

@@ -168,6 +168,40 @@ TEST_P(SoftPinsOf, HoldABall) {
   EXPECT_NEAR(sum / kSteps, 0.0981, 1e-3);
 }
 
+// A ball of 1 kg on 200 N/m hangs 49 mm below its pin's places, which are what they are: however often the
+// level changes, it hangs at the end where it hangs without a change, but for some mm that it still swings.
+TEST_P(SoftPinsOf, KeepTheirPlacesThroughChangesOfLevel) {
+  SimulationDescription scene = softly_pinned(GetParam(), {.v_max = 1});
+  ClothDescription& cloth = scene.cloths[0];
+  cloth.orientation = Quaternion(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()));
+  cloth.material.damping = 1;
+  cloth.pins.push_back({.u_min = 1, .u_max = 1, .v_max = 1});
+  cloth.pins.push_back({.u_min = 0.4, .u_max = 0.6, .v_min = 0.4, .v_max = 0.6, .ball = 0, .stiffness = 200});
+  BallDescription ball;
+  ball.position = {0, -0.5, 0};
+  ball.radius = 0.05;
+  ball.motion = BallDescription::Motion::dynamic;
+  ball.mass = 1;
+  scene.balls = {ball};
+  scene.effects = {GravityEffect{}, DampingEffect{}};
+  const auto height = [&](bool changing) {
+    Simulation<double> simulation(scene);
+    for (int step = 0; step < 600; ++step) {
+      if (changing && step % 15 == 0) simulation.request_level(0, step % 30 == 0 ? 3 : 5);
+      if (step == 450) simulation.request_level(0, 4);
+      simulation.step();
+      if (step >= 450) changing = false;
+    }
+    double sum = 0;
+    for (int step = 0; step < 600; ++step) {
+      simulation.step();
+      sum += simulation.colliders().balls()[0].position.y();
+    }
+    return sum / 600;
+  };
+  EXPECT_NEAR(height(true), height(false), 0.01);
+}
+
 // In free space a body of 0.5 kg is drawn to a sheet of 0.1 kg by a point beside its centre: their momentum,
 // 0.5 kg at 1 m/s, and their angular momentum about the origin, (0.1, 0, 0.3) x (0, 0, 0.5), stay, but for
 // the force of a step at either end, which the two get a step apart. A cube of 0.2 m has the inertia 0.5
@@ -262,10 +296,10 @@ TEST(SoftPins, ShareTheirStiffnessByMass) {
     SimulationDescription scene = softly_pinned(Bdf2Description{}, {});
     scene.cloths[0].initial_level = level;
     const Simulation<double> simulation(scene);
-    const Particles<double>& particles = simulation.cloths()[0].particles();
+    Particles<double> particles = simulation.cloths()[0].particles();
     const PinRegion region{.u_max = 1, .stiffness = 30};
-    const SoftPins<double> pins({region}, {Vec3(0, 0.1, 0)}, 0, particles);
-    EXPECT_LT((pins.pull(region, particles, 0) - Vec3(0, 0.1, 0)).norm(), 1e-12);
+    const SoftPins<double> pins({region}, 0, particles);
+    particles.place.y() -= 0.1;
     VectorField<double> force(particles.grid());
     const EffectContext context{&simulation.cloths()[0].description(), nullptr, 0};
     pins.add_forces(particles, context, force);
@@ -294,7 +328,7 @@ TEST(SoftPins, OnABodyAreSpringsBetweenNodesAndThat) {
     for (const bool turns : {true, false}) {
       body.inverse_mass = yields ? 2 : 0;
       body.inverse_inertia = (turns ? 50 : 0) * Eigen::Matrix3d::Identity();
-      SoftPins<double> pins({region}, {Vec3(0, 0, 0)}, 0, particles);
+      SoftPins<double> pins({region}, 0, particles);
       ASSERT_TRUE(pins.begin_step({body}, 0, 0.1));
       const std::vector<BodySpring> springs = pins.on_bodies(particles, {body}, 0, 0.1, {0, 0.5, 0.05});
       ASSERT_EQ(springs.size(), yields ? 17U : 0U);

@@ -44,7 +44,8 @@ struct Kept {
   MomentumKeeper<double>::Member as_member(const Field<double>* second_order = nullptr, bool rubs = false) {
     freedom = is_held(rig.particles) ? Freedom::none() : freedom_beside(pushes, rig.particles);
     forces = rig.forces(0);
-    return {&keeper, &rig.particles, &forces, &rig.solids, &start, nullptr, &freedom, rubs, second_order};
+    return {&keeper, &rig.particles, &forces, &rig.solids,  &start,
+            nullptr, &freedom,       rubs,    second_order, Vec3::Zero()};
   }
   /// A floor pushes all nodes up.
   void lay_on_floor() {
