@@ -1,6 +1,7 @@
 #include "cloth/integrators/fast_solids.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "cloth/kernels/contact_kernels.h"
@@ -9,8 +10,9 @@ namespace weft {
 namespace {
 
 constexpr int kMostParts = 16;
-/// The way of solid and cloth beside each other in a substep, of the solid's inner radius.
-constexpr double kWayBeside = 1;
+/// The longest way of solid and cloth beside each other in a substep, of the solid's inner radius and of a
+/// cell.
+constexpr double kWayBeside = 0.25;
 
 bool is_firm_with_an_end(const Solid& solid) {
   return !solid.yields() && !std::holds_alternative<HalfSpace>(solid.shape);
@@ -34,18 +36,21 @@ Vec3 mean_velocity(const Particles<Real>& particles) {
 
 template <class Real>
 int parts_beside_fast_solids(const Particles<Real>& particles, Contact<Real>& contact,
-                             const std::vector<Solid>& solids, double h, double dt) {
+                             const std::vector<Solid>& solids, double cell, double h, double dt) {
+  const auto longest = [&](const Solid& solid) {
+    return kWayBeside * std::min(cell, inner_radius(solid.shape));
+  };
   const auto velocity = kernels::components(particles.velocity);
   const double fastest =
       std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
   const auto parts = [&](const Solid& solid, const Vec3& beside) {
     const double way = h / dt * (solid.position - solid.start - dt * beside).norm();
-    return static_cast<int>(
-        std::min(std::ceil(way / (kWayBeside * inner_radius(solid.shape))), double(kMostParts)));
+    const double least = std::min(std::ceil(way / longest(solid)), double(kMostParts));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
   };
   const auto may_be_fast = [&](const Solid& solid) {
-    return is_firm_with_an_end(solid) && h * (fastest + (solid.position - solid.start).norm() / dt) >
-                                             kWayBeside * inner_radius(solid.shape);
+    return is_firm_with_an_end(solid) &&
+           h * (fastest + (solid.position - solid.start).norm() / dt) > longest(solid);
   };
   if (std::none_of(solids.begin(), solids.end(), may_be_fast)) return 1;
   const Vec3 mean = mean_velocity(particles);
@@ -61,8 +66,8 @@ int parts_beside_fast_solids(const Particles<Real>& particles, Contact<Real>& co
 }
 
 template int parts_beside_fast_solids(const Particles<float>&, Contact<float>&, const std::vector<Solid>&,
-                                      double, double);
+                                      double, double, double);
 template int parts_beside_fast_solids(const Particles<double>&, Contact<double>&, const std::vector<Solid>&,
-                                      double, double);
+                                      double, double, double);
 
 }  // namespace weft

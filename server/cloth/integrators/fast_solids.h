@@ -6,23 +6,26 @@
 namespace weft {
 
 /// How many times as many substeps as usual an implicit step takes where cloth and a solid that does not
-/// yield pass each other by more than the solid's inner radius R in one: as many as it takes for them not to,
-/// at most kMostParts.
+/// yield pass each other by more than a quarter of the solid's inner radius R, or of a cell of the cloth, in
+/// one: as many as it takes for them not to, at most kMostParts, a power of two, so that they seldom change:
+/// BDF2 begins anew where the substep does.
 ///
 /// Where the solid's surface faces changes within R. In a substep that is longer a node is held to one
 /// tangent plane all along, and drawn as far as the solid goes, where it would have slid off; its links then
-/// hold energy that nobody put in. Round a wall nothing is drawn. Cloth that goes with the solid needs no
-/// more substeps: what counts is the solid's way beside the mean of the nodes'.
+/// hold energy that nobody put in. And which nodes a solid holds changes with each cell that it goes: of
+/// those that it passes in a substep the iterations find a few, and leave their links stretched. Round a wall
+/// nothing is drawn. Cloth that goes with the solid needs no more substeps: what counts is the solid's way
+/// beside the mean of the nodes'.
 ///
-/// `h` is the substep, s, of a step of `dt`. Solids that the cloth neither touches nor meets in the step,
-/// going on as it goes, do not count.
+/// `h` is the substep, s, of a step of `dt`; `cell` the shorter side of a cell, m. Solids that the cloth
+/// neither touches nor meets in the step, going on as it goes, do not count.
 template <class Real>
 int parts_beside_fast_solids(const Particles<Real>& particles, Contact<Real>& contact,
-                             const std::vector<Solid>& solids, double h, double dt);
+                             const std::vector<Solid>& solids, double cell, double h, double dt);
 
 extern template int parts_beside_fast_solids(const Particles<float>&, Contact<float>&,
-                                             const std::vector<Solid>&, double, double);
+                                             const std::vector<Solid>&, double, double, double);
 extern template int parts_beside_fast_solids(const Particles<double>&, Contact<double>&,
-                                             const std::vector<Solid>&, double, double);
+                                             const std::vector<Solid>&, double, double, double);
 
 }  // namespace weft

@@ -96,8 +96,11 @@ int Implicit<Real>::substeps_of(const Step& step, double dt) const {
   const double asked = dt / parameters_.substeps;
   int parts = step.forces.rescued ? 1 : parts_in_strong_air(*step.particles, step.forces, asked);
   if (step.contact != nullptr) {
-    parts =
-        std::max(parts, parts_beside_fast_solids(*step.particles, *step.contact, *step.solids, asked, dt));
+    const Vec2& size = step.forces.context.cloth->size;
+    const Grid& grid = step.particles->grid();
+    const double cell = std::min(size.x() / (grid.cols - 1), size.y() / (grid.rows - 1));
+    parts = std::max(parts,
+                     parts_beside_fast_solids(*step.particles, *step.contact, *step.solids, cell, asked, dt));
   }
   return parameters_.substeps * parts;
 }
