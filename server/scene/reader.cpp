@@ -2,8 +2,8 @@
 #include <array>
 #include <utility>
 
-#include "cloth/forces/soft_pins.h"
 #include "scene/document.h"
+#include "scene/pin_check.h"
 #include "scene/readers.h"
 
 namespace weft::scene {
@@ -76,57 +76,6 @@ std::vector<EffectDescription> read_effects(Object& scene) {
     effects.push_back(*effect);
   });
   return effects;
-}
-
-/// A pin on a collider that may fly: it must be soft, and all of them on it softer than the step bears. `is`
-/// begins what is said of it.
-void check_pull(const PinRegion& pin, const SimulationDescription& simulation, const std::string& at,
-                const std::string& is, double mass, Report& report) {
-  if (!pin.stiffness) {
-    report.add(at, is + "that one may fly, and a pin on it needs a stiffness");
-    return;
-  }
-  double all = 0;
-  for (const ClothDescription& cloth : simulation.cloths) {
-    for (const PinRegion& other : cloth.pins) {
-      if (other.obstacle == pin.obstacle && other.ball == pin.ball) all += other.stiffness.value_or(0);
-    }
-  }
-  const double most = kPinBound * mass / (simulation.time_step * simulation.time_step);
-  if (all > most) {
-    report.add(at, is + "that one has " + json(mass).dump() + " kg, and all pins on it a stiffness of " +
-                       json(all).dump() + " N/m; at most " + json(most).dump() +
-                       " N/m are allowed, a quarter of mass / time_step^2");
-  }
-}
-
-/// Pins may only be fixed to colliders that there are, and those on what may fly have a stiffness.
-void check_pins(const SimulationDescription& simulation, Report& report) {
-  for (std::size_t c = 0; c < simulation.cloths.size(); ++c) {
-    const std::vector<PinRegion>& pins = simulation.cloths[c].pins;
-    for (std::size_t p = 0; p < pins.size(); ++p) {
-      const std::string pin = "/cloths/" + std::to_string(c) + "/pins/" + std::to_string(p);
-      if (pins[p].ball) {
-        const auto ball = static_cast<std::size_t>(*pins[p].ball);
-        const std::string is = "is " + std::to_string(ball) + "; ";
-        if (ball >= simulation.balls.size()) {
-          report.add(pin + "/ball", is + "the scene has " + std::to_string(simulation.balls.size()) +
-                                        " balls, counted from 0");
-        } else {
-          check_pull(pins[p], simulation, pin + "/ball", is, simulation.balls[ball].mass, report);
-        }
-      }
-      if (!pins[p].obstacle) continue;
-      const std::string at = pin + "/obstacle";
-      const std::string is = "is " + std::to_string(*pins[p].obstacle) + "; ";
-      if (*pins[p].obstacle >= static_cast<int>(simulation.obstacles.size())) {
-        report.add(at, is + "the scene has " + std::to_string(simulation.obstacles.size()) +
-                           " colliders that are no balls, counted from 0");
-      } else if (const auto& body = simulation.obstacles[static_cast<std::size_t>(*pins[p].obstacle)].body) {
-        check_pull(pins[p], simulation, at, is, body->mass, report);
-      }
-    }
-  }
 }
 
 /// Layers of cloth would take the nodes of a seam for two that touch, and a torn seam for whole.

@@ -165,6 +165,30 @@ TEST(PinOnABody, IsSoftEnough) {
             "/cloths/0/pins/0/until: is 1; must be later than from, 2.0 s\n");
 }
 
+// A cube of 0.2 m and 1 kg has the inertia 0.04 / 6 kg m2. Pulled at a sheet's corner, 1.5 m from its centre,
+// it gives way as one of 1 / (1 + 2.25 * 6 / 0.04) kg: 0.875 * 3600 / 338.5 = 9.31 N/m are as much as
+// explicit methods bear at 60 Hz.
+TEST(PinOnABody, IsSofterFarFromItsCentreByExplicitMethods) {
+  const auto problems = [](const std::string& integrator, double stiffness) {
+    const json scene = {
+        {"cloths", {{{"pins", {{{"u", 0}, {"v", 0}, {"obstacle", 0}, {"stiffness", stiffness}}}}}}},
+        {"integrator", {{"type", integrator}}},
+        {"time_step", 1.0 / 60},
+        {"colliders",
+         {{{"type", "box"}, {"size", {0.2, 0.2, 0.2}}, {"position", {-1, -0.5, 0}}, {"mass", 1}}}}};
+    return problems_of(parse(scene.dump(), "sent"));
+  };
+  for (const char* integrator : {"xpbd", "symplectic_euler"}) {
+    EXPECT_EQ(problems(integrator, 9.3), "");
+    const std::string told =
+        "/cloths/0/pins/0/obstacle: is 0; that one is pulled up to 1.5 m from its centre, by 9.4 N/m in all; "
+        "with \"" +
+        std::string(integrator) + "\" at most 9.3";
+    EXPECT_EQ(problems(integrator, 9.4).find(told), 0U) << problems(integrator, 9.4);
+  }
+  EXPECT_EQ(problems("bdf2", 800), "");
+}
+
 // As with meshes: what a client sends names no files, but built-in motions.
 TEST(SentScene, NamesNoMotionFiles) {
   const auto sent = [](const json& motion) {
