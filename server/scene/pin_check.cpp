@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "cloth/forces/soft_pins.h"
@@ -36,48 +37,66 @@ void check_pull(const PinRegion& pin, const SimulationDescription& simulation, c
   }
 }
 
-/// Beyond kPinBound: a pin at a ball's rim, where 1 / mass + r^2 / inertia is 3.5 / mass.
+/// Of kPinBound: a pin at a ball's rim, where 1 / mass + r^2 / inertia is 3.5 / mass.
 constexpr double kAtRim = 3.5;
 
-/// Of the places, from where a body is, that a pin holds as the scene begins, the farthest, m.
-double lever_of(const PinRegion& pin, const ClothDescription& cloth, const Vec3& centre) {
-  const Particles<double> particles = start<double>(cloth, cloth.initial_level);
-  double lever = 0;
-  for (const std::size_t node : nodes_of(pin, particles.grid())) {
-    const Vec3 place = particles.place + at<double>(kernels::components(particles.position), node);
-    lever = std::max(lever, (place - centre).norm());
-  }
-  return lever;
+/// How a body is pulled as the scene begins.
+struct Pull {
+  std::string first;     ///< pin
+  double stiffness = 0;  ///< of all pins, N/m
+  double as_felt = 0;    ///< of pins by its centre that move it as much, N/m
+  double farthest = 0;   ///< m from its centre
+};
+
+/// Its moments of inertia by its mass; the least, m2.
+double least_inertia(const ObstacleDescription& body) {
+  const Shape shape = std::visit([](const auto& own) { return own.shape(); }, body.shape);
+  return mass_properties(shape).inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
 }
 
-/// The pins on a body that explicit methods step must be softer the farther they are from its centre.
-void check_lever(int obstacle, const SimulationDescription& simulation, const std::string& at,
-                 const std::string& is, Report& report) {
+void add_pulls(const SimulationDescription& simulation, std::size_t cloth, std::map<int, Pull>& pulls) {
+  const ClothDescription& description = simulation.cloths[cloth];
+  const auto on_body = [&](const PinRegion& pin) {
+    return pin.obstacle && simulation.obstacles[static_cast<std::size_t>(*pin.obstacle)].body;
+  };
+  if (std::none_of(description.pins.begin(), description.pins.end(), on_body)) return;
+  const Particles<double> particles = start<double>(description, description.initial_level);
+  for (std::size_t p = 0; p < description.pins.size(); ++p) {
+    const PinRegion& pin = description.pins[p];
+    if (!on_body(pin)) continue;
+    const ObstacleDescription& body = simulation.obstacles[static_cast<std::size_t>(*pin.obstacle)];
+    double lever = 0;
+    for (const std::size_t node : nodes_of(pin, particles.grid())) {
+      const Vec3 place = particles.place + at<double>(kernels::components(particles.position), node);
+      lever = std::max(lever, (place - body.position).norm());
+    }
+    Pull& pull = pulls[*pin.obstacle];
+    if (pull.first.empty()) pull.first = element_path(element_path("/cloths", cloth) + "/pins", p);
+    pull.stiffness += pin.stiffness.value_or(0);
+    pull.as_felt += pin.stiffness.value_or(0) * (1 + lever * lever / least_inertia(body));
+    pull.farthest = std::max(pull.farthest, lever);
+  }
+}
+
+/// The pins on a body that explicit methods step must be softer the farther they are from its centre. The
+/// scene has no problems so far.
+void check_levers(const SimulationDescription& simulation, Report& report) {
   const bool explicitly = std::holds_alternative<SymplecticEulerDescription>(simulation.integrator) ||
                           std::holds_alternative<XpbdDescription>(simulation.integrator);
   if (!explicitly) return;
-  const ObstacleDescription& description = simulation.obstacles[static_cast<std::size_t>(obstacle)];
-  const Shape shape = std::visit([](const auto& own) { return own.shape(); }, description.shape);
-  const double mass = description.body->mass;
-  const double inertia =
-      mass * mass_properties(shape).inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
-  double all = 0, asked = 0, farthest = 0;
-  for (const ClothDescription& cloth : simulation.cloths) {
-    for (const PinRegion& pin : cloth.pins) {
-      if (pin.obstacle != obstacle) continue;
-      const double lever = lever_of(pin, cloth, description.position), stiffness = pin.stiffness.value_or(0);
-      all += stiffness;
-      asked += stiffness * (1 + mass * lever * lever / inertia);
-      farthest = std::max(farthest, lever);
-    }
+  std::map<int, Pull> pulls;
+  for (std::size_t cloth = 0; cloth < simulation.cloths.size(); ++cloth) add_pulls(simulation, cloth, pulls);
+  for (const auto& [obstacle, pull] : pulls) {
+    const double mass = simulation.obstacles[static_cast<std::size_t>(obstacle)].body->mass;
+    const double most = kAtRim * kPinBound * mass / (simulation.time_step * simulation.time_step);
+    if (pull.as_felt <= most) continue;
+    const auto name = std::visit([](const auto& d) { return std::string(d.kName); }, simulation.integrator);
+    report.add(pull.first + "/obstacle",
+               "is " + std::to_string(obstacle) + "; that one is pulled up to " + json(pull.farthest).dump() +
+                   " m from its centre, by " + json(pull.stiffness).dump() + " N/m in all; with \"" + name +
+                   "\" at most " + json(pull.stiffness * most / pull.as_felt).dump() +
+                   " N/m are allowed there; \"bdf2\" bears more");
   }
-  const double most = kAtRim * kPinBound * mass / (simulation.time_step * simulation.time_step);
-  if (asked <= most) return;
-  report.add(at, is + "that one is pulled up to " + json(farthest).dump() + " m from its centre, by " +
-                     json(all).dump() + " N/m in all; with \"" +
-                     std::visit([](const auto& d) { return std::string(d.kName); }, simulation.integrator) +
-                     "\" at most " + json(all * most / asked).dump() +
-                     " N/m are allowed there; \"bdf2\" bears more");
 }
 
 }  // namespace
@@ -105,10 +124,10 @@ void check_pins(const SimulationDescription& simulation, Report& report) {
                            " colliders that are no balls, counted from 0");
       } else if (const auto& body = simulation.obstacles[static_cast<std::size_t>(*pins[p].obstacle)].body) {
         check_pull(pins[p], simulation, at, is, body->mass, report);
-        if (report.count() == 0) check_lever(*pins[p].obstacle, simulation, at, is, report);
       }
     }
   }
+  if (report.count() == 0) check_levers(simulation, report);
 }
 
 }  // namespace weft::scene

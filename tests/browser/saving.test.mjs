@@ -13,7 +13,7 @@ import {hide, openScene, pause, startServer, stats, until} from './harness.mjs';
 let server, page, witness;
 before(async () => {
   server = await startServer(['zheng2020-ball']);
-  ({page, witness} = await openScene(server, 'zheng2020-ball', {deviceScaleFactor: 0.5}));
+  ({page, witness} = await openScene(server, 'zheng2020-ball', {deviceScaleFactor: 0.5, pictures: null}));  // it saves what it draws
   await until(page, () => weft.stats.balls.length > 0);
 });
 

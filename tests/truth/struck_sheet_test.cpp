@@ -1,4 +1,4 @@
-// What a limb or a ball that goes through a hung sheet does to it hardly depends on the step.
+// What a limb or a box that goes through a hung sheet does to it hardly depends on the step.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -61,9 +61,9 @@ Most most_of(SimulationDescription scene) {
 
 class StruckSheet : public ImplicitMethod {};
 
-// Beside 24 substeps a step. In steps whose parts are as long as a solid's inner radius five of these twelve
-// are stretched beyond 0.1 and twice as much by either method, and six and five have half as much energy
-// again.
+// Beside 24 substeps a step. As many may be stretched beyond 0.1 and twice as much, or have half as much
+// energy again, as are and have here; in parts as long as a solid's inner radius five are by either method,
+// and six and five have.
 TEST_P(StruckSheet, HasTheStrainAndTheEnergyOfSmallSteps) {
   Draws draws;
   int stretched = 0, gained = 0;
@@ -82,7 +82,7 @@ TEST_P(StruckSheet, HasTheStrainAndTheEnergyOfSmallSteps) {
     if (usual.energy > 1.5 * fine.energy) ++gained;
   }
   const bool second_order = GetParam() == Method::bdf2;
-  EXPECT_LE(stretched, second_order ? 1 : 3);
+  EXPECT_LE(stretched, second_order ? 1 : 4);
   EXPECT_LE(gained, second_order ? 1 : 2);
 }
 

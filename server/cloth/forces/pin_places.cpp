@@ -19,46 +19,44 @@ struct Between {
 };
 
 Between between(double x, double first, double step, int count) {
-  double line = (x - first) / step;
-  if (std::abs(line - std::round(line)) < kAtNode) line = std::round(line);
   const int last = count - 1;
-  if (last == 0) return {0, 0, 0};
-  if (line < 0 || line > last) return {0, last, line / last};
-  const int below = std::min(static_cast<int>(line), last - 1);
-  return {below, below + 1, line - below};
+  double line = std::clamp((x - first) / step, 0.0, static_cast<double>(last));
+  if (std::abs(line - std::round(line)) < kAtNode) line = std::round(line);
+  const int below = static_cast<int>(line);
+  return {below, std::min(below + 1, last), line - below};
 }
 
 }  // namespace
 
 template <class Real>
-PinPlaces<Real>::PinPlaces(const PinRegion& region, double time, const Particles<Real>& particles) {
+PinPlaces::PinPlaces(const PinRegion& region, double time, const Particles<Real>& particles) {
   const Grid& grid = particles.grid();
   const std::vector<std::size_t> nodes = nodes_of(region, grid);  // rows of equal length
   const auto stride = static_cast<std::size_t>(grid.stride);
-  const std::size_t row = nodes.front() / stride, col = nodes.front() % stride;
-  const int rows = static_cast<int>(nodes.back() / stride - row) + 1,
-            cols = static_cast<int>(nodes.back() % stride - col) + 1;
+  // With one more on each side finer levels' nodes in the region lie between these.
+  const int top = std::max(static_cast<int>(nodes.front() / stride) - 1, 0),
+            left = std::max(static_cast<int>(nodes.front() % stride) - 1, 0);
+  const int bottom = std::min(static_cast<int>(nodes.back() / stride) + 1, grid.rows - 1),
+            right = std::min(static_cast<int>(nodes.back() % stride) + 1, grid.cols - 1);
   step_u_ = 1.0 / (grid.cols - 1);
   step_v_ = 1.0 / (grid.rows - 1);
-  first_u_ = static_cast<double>(col) * step_u_;
-  first_v_ = static_cast<double>(row) * step_v_;
-  places_ = Particles<Real>(Grid::with_nodes(rows, cols));
-  places_.place = particles.place;
-  places_.mass.fill(Real(1));
-  const auto from = kernels::components(particles.position);
-  auto node = nodes.begin();
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c)
-      set(kernels::components(places_.position), places_.grid().index(r, c), weft::at<Real>(from, *node++));
+  first_u_ = left * step_u_;
+  first_v_ = top * step_v_;
+  places_ = Particles<double>(Grid::with_nodes(bottom - top + 1, right - left + 1));
+  places_.mass.fill(1);
+  for (int r = top; r <= bottom; ++r) {
+    for (int c = left; c <= right; ++c) {
+      set(kernels::components(places_.position), places_.grid().index(r - top, c - left),
+          particles.position_at(r, c));
+    }
   }
   PinRegion whole = region;
   whole.u_min = whole.v_min = 0;
   whole.u_max = whole.v_max = 1;
-  pins_ = Pins<Real>({whole}, time, places_);
+  pins_ = Pins<double>({whole}, time, places_);
 }
 
-template <class Real>
-auto PinPlaces<Real>::stencil(double u, double v) const -> Stencil {
+auto PinPlaces::stencil(double u, double v) const -> Stencil {
   const Grid& grid = places_.grid();
   const Between along = between(u, first_u_, step_u_, grid.cols),
                 down = between(v, first_v_, step_v_, grid.rows);
@@ -68,15 +66,14 @@ auto PinPlaces<Real>::stencil(double u, double v) const -> Stencil {
            down.share * (1 - along.share), down.share * along.share}};
 }
 
-template <class Real>
-Vec3 PinPlaces<Real>::at(const Stencil& stencil) const {
+Vec3 PinPlaces::at(const Stencil& stencil) const {
   const auto places = kernels::components(std::as_const(places_.position));
   Vec3 sum = places_.place;
-  for (std::size_t k = 0; k < 4; ++k) sum += stencil.share[k] * weft::at<Real>(places, stencil.index[k]);
+  for (std::size_t k = 0; k < 4; ++k) sum += stencil.share[k] * weft::at<double>(places, stencil.index[k]);
   return sum;
 }
 
-template class PinPlaces<float>;
-template class PinPlaces<double>;
+template PinPlaces::PinPlaces(const PinRegion&, double, const Particles<float>&);
+template PinPlaces::PinPlaces(const PinRegion&, double, const Particles<double>&);
 
 }  // namespace weft

@@ -8,15 +8,14 @@
 
 namespace weft {
 
-/// Where a soft pin draws the cloth: the places that its nodes had when it took hold, at the level of then.
-/// They go with its path, its motion, its obstacle or its ball, and stay what they are at every level:
-/// between them a place is bilinear in theirs, and beyond the outermost it goes on as between the first and
-/// the last of a row.
-template <class Real>
+/// Where a soft pin draws the cloth: the places that the nodes in its region, and those around it, had when
+/// it took hold, at the level of then. They go with its path, its motion, its obstacle or its ball, and stay
+/// what they are at every level: between them a place is bilinear in theirs.
 class PinPlaces {
  public:
   PinPlaces() = default;
-  /// Takes hold: of the places that the region's nodes have at `time`, s.
+  /// Takes hold of where the particles are at `time`, s.
+  template <class Real>
   PinPlaces(const PinRegion& region, double time, const Particles<Real>& particles);
 
   /// A place by its shares of four of those that were taken.
@@ -28,7 +27,7 @@ class PinPlaces {
       archive(index, share);
     }
   };
-  /// Of what is at u and v, in [0, 1].
+  /// Of what is at u and v, in [0, 1]; of what is outside of all places that of the nearest border.
   Stencil stencil(double u, double v) const;
   /// In the world, m, at the time they were carried to.
   Vec3 at(const Stencil& stencil) const;
@@ -50,13 +49,13 @@ class PinPlaces {
   }
 
  private:
-  double first_u_ = 0, first_v_ = 0;  ///< of the first row and column of nodes
+  double first_u_ = 0, first_v_ = 0;  ///< of the first row and column of places
   double step_u_ = 1, step_v_ = 1;    ///< from one to the next
-  Pins<Real> pins_;                   ///< on a grid of the region's nodes alone
-  mutable Particles<Real> places_;
+  Pins<double> pins_;                 ///< on a grid of these places alone
+  mutable Particles<double> places_;  ///< in the world
 };
 
-extern template class PinPlaces<float>;
-extern template class PinPlaces<double>;
+extern template PinPlaces::PinPlaces(const PinRegion&, double, const Particles<float>&);
+extern template PinPlaces::PinPlaces(const PinRegion&, double, const Particles<double>&);
 
 }  // namespace weft

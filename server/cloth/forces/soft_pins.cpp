@@ -9,10 +9,21 @@
 namespace weft {
 namespace {
 
+bool is_same(const Waypoint& a, const Waypoint& b) { return a.time == b.time && a.position == b.position; }
+
+bool is_same(const PoseWaypoint& a, const PoseWaypoint& b) {
+  return a.time == b.time && a.pose.position == b.pose.position &&
+         a.pose.orientation.coeffs() == b.pose.orientation.coeffs();
+}
+
 bool is_same(const PinRegion& a, const PinRegion& b) {
+  const auto same = [](const auto& one, const auto& other) {
+    return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                      [](const auto& x, const auto& y) { return is_same(x, y); });
+  };
   return a.u_min == b.u_min && a.u_max == b.u_max && a.v_min == b.v_min && a.v_max == b.v_max &&
          a.from == b.from && a.until == b.until && a.stiffness == b.stiffness && a.obstacle == b.obstacle &&
-         a.ball == b.ball;
+         a.ball == b.ball && a.loop == b.loop && same(a.path, b.path) && same(a.motion, b.motion);
 }
 
 /// The solid that yields and has the region's places; the end if there is none.
@@ -34,7 +45,7 @@ SoftPins<Real>::SoftPins(const std::vector<PinRegion>& regions, double time, con
   for (const PinRegion& region : regions) {
     Held held{region, {}, {}};
     const Held* had = before == nullptr ? nullptr : before->of(region);
-    held.places = had == nullptr ? PinPlaces<Real>(region, time, particles) : had->places;
+    held.places = had == nullptr ? PinPlaces(region, time, particles) : had->places;
     double sum = 0;
     const std::vector<std::size_t> nodes = nodes_of(region, grid);
     for (const std::size_t node : nodes) sum += double(mass[node]);

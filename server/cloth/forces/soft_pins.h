@@ -48,7 +48,7 @@ class SoftPins final : public Effect<Real> {
   /// leaves them and sees them: those that yield get the impulse of the force at its end, against the pins'
   /// pull. Summed over steps that is what the cloth gets, but for a step's force at either end: nothing
   /// drifts. Stable as a spring is that is stepped by symplectic Euler's method, while k dt^2 < 4 m at the
-  /// body's points; a scene holds kPinBound.
+  /// body's points; scene files are held to kPinBound there.
   void push(const Particles<Real>& particles, std::vector<Solid>& solids, double time, double dt) const;
 
   /// Calls visit(node, stiffness), in N/m, for each of its springs: for methods that take them implicitly.
@@ -88,7 +88,7 @@ class SoftPins final : public Effect<Real> {
   struct Spring {
     std::size_t node;
     double stiffness;  ///< N/m
-    typename PinPlaces<Real>::Stencil place;
+    PinPlaces::Stencil place;
     template <class Archive>
     void serialize(Archive& archive) {
       archive(node, stiffness, place);
@@ -96,7 +96,7 @@ class SoftPins final : public Effect<Real> {
   };
   struct Held {
     PinRegion region;
-    PinPlaces<Real> places;
+    PinPlaces places;
     std::vector<Spring> springs;
     template <class Archive>
     void serialize(Archive& archive) {

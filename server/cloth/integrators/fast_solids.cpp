@@ -10,9 +10,10 @@ namespace weft {
 namespace {
 
 constexpr int kMostParts = 16;
-/// The longest way of solid and cloth beside each other in a substep, of the solid's inner radius and of a
-/// cell.
-constexpr double kWayBeside = 0.25;
+/// The way of solid and cloth beside each other in a substep, of the solid's inner radius.
+constexpr double kWayBeside = 1;
+/// The same of a solid that moves, of its inner radius and of a cell.
+constexpr double kWayBesideMoving = 0.25;
 
 bool is_firm_with_an_end(const Solid& solid) {
   return !solid.yields() && !std::holds_alternative<HalfSpace>(solid.shape);
@@ -37,16 +38,17 @@ Vec3 mean_velocity(const Particles<Real>& particles) {
 template <class Real>
 int parts_beside_fast_solids(const Particles<Real>& particles, Contact<Real>& contact,
                              const std::vector<Solid>& solids, double cell, double h, double dt) {
-  const auto longest = [&](const Solid& solid) {
-    return kWayBeside * std::min(cell, inner_radius(solid.shape));
-  };
   const auto velocity = kernels::components(particles.velocity);
   const double fastest =
       std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
+  const auto longest = [&](const Solid& solid) {
+    const double radius = inner_radius(solid.shape);
+    return solid.moves() ? kWayBesideMoving * std::min(cell, radius) : kWayBeside * radius;
+  };
   const auto parts = [&](const Solid& solid, const Vec3& beside) {
     const double way = h / dt * (solid.position - solid.start - dt * beside).norm();
     const double least = std::min(std::ceil(way / longest(solid)), double(kMostParts));
-    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(least, 1.0))));
   };
   const auto may_be_fast = [&](const Solid& solid) {
     return is_firm_with_an_end(solid) &&

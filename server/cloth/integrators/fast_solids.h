@@ -5,14 +5,14 @@
 
 namespace weft {
 
-/// How many times as many substeps as usual an implicit step takes where cloth and a solid that does not
-/// yield pass each other by more than a quarter of the solid's inner radius R, or of a cell of the cloth, in
-/// one: as many as it takes for them not to, at most kMostParts, a power of two, so that they seldom change:
-/// BDF2 begins anew where the substep does.
+/// How many times as many substeps as usual an implicit step takes beside a solid that does not yield: as
+/// many as it takes for cloth and solid not to pass each other in one by more than the solid's inner radius
+/// R, and for a solid that moves not to pass by more than a quarter of R or of a cell of the cloth; at
+/// most kMostParts. Powers of two, so that they seldom change: BDF2 begins anew where they do.
 ///
 /// Where the solid's surface faces changes within R. In a substep that is longer a node is held to one
 /// tangent plane all along, and drawn as far as the solid goes, where it would have slid off; its links then
-/// hold energy that nobody put in. And which nodes a solid holds changes with each cell that it goes: of
+/// hold energy that nobody put in. And which nodes a solid strikes changes with each cell that it goes: of
 /// those that it passes in a substep the iterations find a few, and leave their links stretched. Round a wall
 /// nothing is drawn. Cloth that goes with the solid needs no more substeps: what counts is the solid's way
 /// beside the mean of the nodes'.

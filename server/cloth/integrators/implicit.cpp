@@ -243,7 +243,8 @@ void Implicit<Real>::keep_momentum(std::span<Step> steps) {
   for (Step& step : steps) {
     Memory& memory = *step.method->memory_;
     members.push_back({&memory.momentum, step.particles, &step.forces, step.solids, &memory.formula.start(),
-                       step.contact, &step.now, step.rubs, memory.formula.by_bdf2(), step.hung_torque});
+                       step.contact, &step.now, step.rubs, memory.formula.by_bdf2(), step.part.to,
+                       step.hung_torque});
   }
   const double kept = MomentumKeeper<Real>::end_substep(members, steps[0].part.seconds);
   if (kept != 1) steps[0].method->memory_->formula.scale(*steps[0].particles, kept, steps[0].now);

@@ -23,10 +23,10 @@ void for_each_node(const Grid& grid, Visit visit) {
   }
 }
 
-/// Of a body that moves like this, about a point in the world, seen from `place`.
-Vec3 angular_momentum(const Solid& solid, const Vec3& velocity, const Vec3& spin, const Vec3& place,
-                      const Vec3& point) {
-  Vec3 sum = (place + solid.position - point).cross(velocity / solid.inverse_mass);
+/// Of a body that moves like this at `to`, share of the step, about a point in the world, seen from `place`.
+Vec3 angular_momentum(const Solid& solid, double to, const Vec3& velocity, const Vec3& spin,
+                      const Vec3& place, const Vec3& point) {
+  Vec3 sum = (place + solid.at(to) - point).cross(velocity / solid.inverse_mass);
   if (solid.yields_turning()) sum += solid.inverse_inertia.inverse() * spin;
   return sum;
 }
@@ -136,8 +136,8 @@ auto MomentumKeeper<Real>::input(const Member& member, const Vec3& centre) -> In
     const Solid &was = solids_[i], &is = solids[i];
     if (!is.yields() || (was.velocity == is.velocity && was.spin == is.spin)) continue;
     input.momentum -= (is.velocity - was.velocity) / is.inverse_mass;
-    input.angular_momentum -=
-        angular_momentum(is, is.velocity - was.velocity, is.spin - was.spin, particles.place, centre);
+    input.angular_momentum -= angular_momentum(is, member.to, is.velocity - was.velocity, is.spin - was.spin,
+                                               particles.place, centre);
     input.energy += kinetic_energy(was) - kinetic_energy(is);
   }
   return input;

@@ -47,6 +47,7 @@ class MomentumKeeper {
     const Freedom* freedom;
     bool rubs;
     const Field<Real>* second_order;
+    double to;         ///< when the substep ends, share of the step
     Vec3 hung_torque;  ///< of soft pins on solids that do not turn, beside that of the same forces at the
                        ///< solids' centres, N m
   };

@@ -11,7 +11,7 @@ bool Pins<Real>::begin_step(const Particles<Real>& particles, const std::vector<
                             double dt) {
   begin_ = time;
   step_ = dt;
-  bool move = begin_of_motion_ < time + dt && time < end_of_motion_;
+  bool move = (!carried_.empty() || !led_.empty()) && time < end_of_motion_;
   for (Fixed& fixed : fixed_) {
     const auto found = std::find_if(solids.begin(), solids.end(),
                                     [&](const Solid& solid) { return solid.id == fixed.obstacle.id; });

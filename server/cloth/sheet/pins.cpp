@@ -90,16 +90,14 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
     const auto world = [&](std::size_t node) -> Vec3 {
       return particles.place + weft::at<Real>(kernels::components(particles.position), node);
     };
-    const auto moves = [&](const auto& points) {
-      const double end = region.loop ? std::numeric_limits<double>::infinity() : points.back().time;
-      begin_of_motion_ = std::min(begin_of_motion_, points.front().time);
-      end_of_motion_ = std::max(end_of_motion_, end);
+    const auto moves_until = [&](double end) {
+      end_of_motion_ = std::max(end_of_motion_, region.loop ? std::numeric_limits<double>::infinity() : end);
     };
     if (!region.path.empty()) {
       Path path{region.path, region.loop, {}};
       const Vec3 offset = along_path(region.path, time, region.loop);
       for (const std::size_t node : nodes) path.nodes.push_back({node, world(node) - offset});
-      moves(region.path);
+      moves_until(region.path.back().time);
       carried_.push_back(std::move(path));
     }
     if (!region.motion.empty()) {
@@ -107,7 +105,7 @@ Pins<Real>::Pins(const std::vector<PinRegion>& regions, double time, Particles<R
       const Pose pose = along_path(region.motion, time, region.loop);
       for (const std::size_t node : nodes)
         led.nodes.push_back({node, pose.orientation.conjugate() * (world(node) - pose.position)});
-      moves(region.motion);
+      moves_until(region.motion.back().time);
       led_.push_back(std::move(led));
     }
   }

@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <vector>
 
 #include "cloth/core/particles.h"
@@ -70,7 +69,7 @@ class Pins {
   /// What lasts from step to step (world/state.h).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(carried_, led_, fixed_, begin_of_motion_, end_of_motion_, begin_, step_);
+    archive(carried_, led_, fixed_, end_of_motion_, begin_, step_);
   }
 
  private:
@@ -122,8 +121,7 @@ class Pins {
   std::vector<Path> carried_;
   std::vector<Led> led_;
   std::vector<Fixed> fixed_;
-  /// When the first path or motion begins and the last one ends, s; infinite if there is none, or one loops.
-  double begin_of_motion_ = std::numeric_limits<double>::infinity(), end_of_motion_ = 0;
+  double end_of_motion_ = 0;     ///< when the last path or motion ends, s; infinite if one loops
   double begin_ = 0, step_ = 1;  ///< of the step, s
 };
 

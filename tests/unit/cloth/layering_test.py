@@ -171,5 +171,13 @@ class SelfTest(unittest.TestCase):
         self.assertEqual(len(self.check({"server/misc/a.cpp": ""})), 1)
 
 
+class Tests(unittest.TestCase):
+    def test_every_file_of_tests_is_compiled(self):
+        lists = {path.parent: path.read_text() for path in (ROOT / "tests").rglob("CMakeLists.txt")}
+        for path in (ROOT / "tests").rglob("*_test.cpp"):
+            self.assertTrue(any(str(path.relative_to(folder)) in text for folder, text in lists.items() if folder in path.parents),
+                            f"{path} is in no CMakeLists.txt")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -70,6 +70,30 @@ class OnGround {
   std::vector<Solid> solids_;
 };
 
+// A soft pin draws a node by 20 N/m * (0.1, -0.2, 0.3) m. About a ball's centre that is a torque, which the
+// ball, as it does not turn, takes from nobody; what turns takes it up itself.
+TEST(HangingSolids, TellTheTorqueBesideTheirCentresUnlessTheyTurn) {
+  const Particles<double> sheet = flat_sheet<double>(3, 3, {1, 1});
+  const Vec3 apart(0.1, -0.2, 0.3), centre(0.2, -3, 1);
+  for (const bool turns : {false, true}) {
+    Solid ball;
+    ball.shape = Sphere{0.1};
+    ball.start = ball.position = centre;
+    ball.inverse_mass = 2;
+    if (turns) ball.inverse_inertia = Eigen::Matrix3d::Identity();
+    const std::vector<Solid> solids{ball};
+    ContactConstraints<double> contacts;
+    AttachedBodies<double> bodies;
+    contacts.begin({}, {}, sheet, solids, Substep{0, 1, kConstraintStep}, false, bodies);
+    contacts.hang({{sheet.grid().index(0, 2), 0, Vec3::Zero(), apart, 20}}, sheet, solids, bodies);
+    NodeArrays<double> moves(sheet.grid(), 3);
+    const Vec3 torque = contacts.torque_beside_centres(moves.vector(0), sheet, solids, bodies);
+    const Vec3 expected =
+        turns ? Vec3(0, 0, 0) : Vec3((sheet.local_position_at(0, 2) - centre).cross(20 * apart));
+    EXPECT_LT((torque - expected).norm(), 1e-12) << torque.transpose();
+  }
+}
+
 // DECISIONS.md: 32 times as stiff as the inertia where it is not known what it bears, from g h^2 / 16 outside
 // of the surface on; what it bears presses it by half of that.
 constexpr double kWeak = 32 * kInertia, kPressed = 9.81 / 32 * kConstraintStep * kConstraintStep,

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.h"
 #include "loose_contact.h"
 
 namespace weft {
@@ -10,13 +11,13 @@ namespace {
 
 using test::kFrame;
 
-constexpr double kRadius = 0.1;
+constexpr double kShotRadius = 0.1, kShotCell = 0.125;  // m
 
 /// Goes at `speed` along z, through the middle of a sheet that lies in z = 0.
 Solid shot_ball(double speed) {
   Solid ball;
   ball.id = 1;
-  ball.shape = Sphere{kRadius};
+  ball.shape = Sphere{kShotRadius};
   ball.start = {0, 0, -0.2};
   ball.position = ball.start + Vec3(0, 0, kFrame * speed);
   ball.velocity = {0, 0, speed};
@@ -24,18 +25,22 @@ Solid shot_ball(double speed) {
 }
 
 /// Of a step of one substep, for a sheet of 2 m whose nodes all go at `speed` along z.
-int parts_beside(const Solid& solid, double speed, int substeps = 1) {
+int parts_beside(const Solid& solid, double speed, int substeps = 1, double cell = kShotCell) {
   Particles<double> sheet = test::flat_sheet<double>(17, 17, {2, 2});
   for (double& z : sheet.velocity.z.values()) z = speed;
   test::LooseContact<double> contact(sheet.grid());
-  return parts_beside_fast_solids(sheet, contact, {solid}, kFrame / substeps, kFrame);
+  return parts_beside_fast_solids(sheet, contact, {solid}, cell, kFrame / substeps, kFrame);
 }
 
-TEST(FastSolids, HaveSoManyPartsThatNoneIsPassedByMoreThanItsRadius) {
-  EXPECT_EQ(parts_beside(shot_ball(59), 0), 10);  // 0.98 m in the step
-  EXPECT_EQ(parts_beside(shot_ball(59), 0, 4), 3);
-  EXPECT_EQ(parts_beside(shot_ball(25), 0), 5);  // 0.42 m
-  EXPECT_EQ(parts_beside(shot_ball(59), -30), 15);
+// The longest way is a quarter of 0.1 m, or of a cell of 0.04 m; of so many parts the next power of two is
+// taken.
+TEST(FastSolids, HaveSoManyPartsThatNoneIsPassedByMoreThanAQuarterOfItOrOfACell) {
+  EXPECT_EQ(parts_beside(shot_ball(15), 0, 12), 1);       // 0.021 m of 0.025
+  EXPECT_EQ(parts_beside(shot_ball(15), 0, 8), 2);        // 0.031 m
+  EXPECT_EQ(parts_beside(shot_ball(15), 0, 4), 4);        // 0.0625 m, 2.5 times as much
+  EXPECT_EQ(parts_beside(shot_ball(15), -15, 4), 8);      // beside the sheet's own way twice that
+  EXPECT_EQ(parts_beside(shot_ball(15), 0, 4, 0.04), 8);  // 6.25 times 0.01 m
+  EXPECT_EQ(parts_beside(shot_ball(15), 0, 2), 8);        // 0.125 m
 }
 
 TEST(FastSolids, HaveSixteenPartsAtMost) { EXPECT_EQ(parts_beside(shot_ball(200), 0), 16); }
@@ -61,18 +66,18 @@ TEST(FastSolids, GoOnInPartsWhileClothIsCarriedOutOfTheRest) {
   // A node at the ball's front goes with it; the mean of 289 nodes does not.
   Particles<double> sheet = test::flat_sheet<double>(17, 17, {2, 2});
   const Solid ball = shot_ball(59);
-  test::set(sheet.position, 8, 8, ball.start + Vec3(0, 0, 0.99 * kRadius));
+  test::set(sheet.position, 8, 8, ball.start + Vec3(0, 0, 0.99 * kShotRadius));
   test::set(sheet.velocity, 8, 8, ball.velocity);
   test::LooseContact<double> contact(sheet.grid());
   std::vector<Solid> solids{ball};
   solids[0].position = solids[0].start;  // where it is as the last step ends
   contact.resolve(sheet, solids, {0, 1, kFrame});
   ASSERT_EQ(contact.touches().size(), 1U);
-  // (1 - 1 / 289) of 0.983 m.
-  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kFrame, kFrame), 10);
+  // (1 - 1 / 289) of 0.123 m, 4.9 times 0.025 m.
+  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kShotCell, kFrame / 8, kFrame), 8);
   // All go with it.
   for (double& z : sheet.velocity.z.values()) z = 59;
-  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kFrame, kFrame), 1);
+  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kShotCell, kFrame / 8, kFrame), 1);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ struct Kept {
   MomentumKeeper<double>::Member as_member(const Field<double>* second_order = nullptr, bool rubs = false) {
     freedom = is_held(rig.particles) ? Freedom::none() : freedom_beside(pushes, rig.particles);
     forces = rig.forces(0);
-    return {&keeper, &rig.particles, &forces, &rig.solids,  &start,
-            nullptr, &freedom,       rubs,    second_order, Vec3::Zero()};
+    return {&keeper,  &rig.particles, &forces,      &rig.solids, &start,     nullptr,
+            &freedom, rubs,           second_order, 1,           hung_torque};
   }
   /// A floor pushes all nodes up.
   void lay_on_floor() {
@@ -63,6 +63,7 @@ struct Kept {
   std::vector<Push> pushes;
   Freedom freedom = Freedom::none();
   Forces<double> forces;
+  Vec3 hung_torque{0, 0, 0};
 };
 
 void expect_near(const Vec3& found, const Vec3& expected) {
@@ -80,6 +81,18 @@ TEST(MomentumKeeper, WithoutForcesMomentaStay) {
   EXPECT_EQ(cloth.end(), 1);
   expect_near(cloth.momentum(), momentum);
   expect_near(cloth.spin(), spin);
+}
+
+// What soft pins on bodies that do not turn twist the cloth by is given to it: h T.
+TEST(MomentumKeeper, WhatHangsTwistsTheCloth) {
+  Kept cloth;
+  cloth.hung_torque = {0.2, -0.1, 0.3};
+  const Vec3 momentum = cloth.momentum(), spin = cloth.spin();
+  cloth.begin();
+  cloth.err(5);
+  cloth.end();
+  expect_near(cloth.momentum(), momentum);
+  expect_near(cloth.spin(), spin + kKeptStep * cloth.hung_torque);
 }
 
 // Of two that are stepped together what they have together stays, and their motion beside each other is as
