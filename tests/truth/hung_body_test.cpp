@@ -105,8 +105,10 @@ TEST_P(HungBody, FarFromAFreeSheetBringsInHardlyAnyEnergy) {
       simulation.step();
       most = std::max(most, energy());
     }
-    EXPECT_LT(most, 1.3 * began) << "draw " << draw;  // 1.27 once, for some steps as the pin begins to pull
-    EXPECT_LT(energy(), 1.05 * began) << "draw " << draw;
+    // 1.154 for some steps as a pin begins to pull, and 1.006 in the end, are the most of 48; given back at
+    // the ball's centre, the pins' force multiplies it.
+    EXPECT_LT(most, 1.2 * began) << "draw " << draw;
+    EXPECT_LT(energy(), 1.02 * began) << "draw " << draw;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bodies.h"
 #include "cloth/contact/constraints/body_spring.h"
 #include "cloth/world/simulation.h"
 #include "cloth/world/state.h"
@@ -150,12 +151,8 @@ TEST_P(SoftPinsOf, HoldABall) {
   scene.cloths[0].pins.push_back(
       {.u_min = 0.5, .u_max = 0.5, .v_min = 1, .v_max = 1, .ball = 0, .stiffness = 20});
   scene.cloths[0].initial_level = 3;
-  BallDescription ball;
-  ball.position = {0, -0.6, 0};
-  ball.radius = 0.05;
-  ball.motion = BallDescription::Motion::dynamic;
-  ball.mass = 0.2;
-  scene.balls = {ball};
+  scene.balls = {test::flying_ball({0, -0.6, 0}, 0.05)};
+  scene.balls[0].mass = 0.2;
   scene.effects = {GravityEffect{}, DampingEffect{}};
   Simulation<double> simulation(scene);
   double sum = 0;
@@ -177,12 +174,8 @@ TEST_P(SoftPinsOf, KeepTheirPlacesThroughChangesOfLevel) {
   cloth.material.damping = 1;
   cloth.pins.push_back({.u_min = 1, .u_max = 1, .v_max = 1});
   cloth.pins.push_back({.u_min = 0.4, .u_max = 0.6, .v_min = 0.4, .v_max = 0.6, .ball = 0, .stiffness = 200});
-  BallDescription ball;
-  ball.position = {0, -0.5, 0};
-  ball.radius = 0.05;
-  ball.motion = BallDescription::Motion::dynamic;
-  ball.mass = 1;
-  scene.balls = {ball};
+  scene.balls = {test::flying_ball({0, -0.5, 0}, 0.05)};
+  scene.balls[0].mass = 1;
   scene.effects = {GravityEffect{}, DampingEffect{}};
   const auto height = [&](bool changing) {
     Simulation<double> simulation(scene);
