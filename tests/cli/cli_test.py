@@ -212,6 +212,12 @@ class Check(CliTest):
                                         "  cloth towel: 2 x 2 m, 0.1 kg/m2, levels 4 to 6, at most 65 x 65 nodes, 1 pins\n"
                                         "  effects: none\n  time step: 0.0166667 s\n")
 
+    def test_a_file_is_named_alone_from_its_folder(self):
+        file = self.scene_file('{"cloths": [{}]}')
+        result = subprocess.run([pathlib.Path(WEFT).resolve(), "check", file.name], cwd=self.folder, capture_output=True, text=True,
+                                timeout=LIMIT_S)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
 
 class Version(CliTest):
     def test_version(self):

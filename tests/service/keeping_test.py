@@ -1,44 +1,19 @@
-"""What the server keeps (--data) and records (--record): after any end it goes on where it was, and what it wrote is told true."""
+"""What the server keeps (--data): after any end it goes on where it was, and files that are damaged are told."""
 import asyncio
 import http.client
 import json
-import pathlib
-import re
 import shutil
 import signal
 import subprocess
-import tempfile
 import unittest
 
-from serving import BINARY, GENEROUS, SANITIZED, SCENES, Server
+from kept import SCENE, Kept, replay
+from serving import BINARY, GENEROUS, SANITIZED, Server
 
 import weft
 
-SCENE = SCENES / "hung.json"
 
-
-def replay(file, *arguments):
-    return subprocess.run([BINARY, "replay", str(file), *arguments], capture_output=True, text=True, timeout=300)
-
-
-class Keeping(unittest.IsolatedAsyncioTestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.data = self.folder / "data"
-
-    def start(self, *arguments, scene=SCENE):
-        server = Server(scene, *arguments)
-        self.addCleanup(server.end)
-        return server
-
-    async def join(self, server, scene="hung"):
-        client = await weft.connect(server.url(scene), timeout=GENEROUS)
-        self.addAsyncCleanup(client.close)
-        await client.camera(distance=20)
-        return client
-
+class Keeping(Kept):
     def files(self):
         return sorted((self.data / "hung").glob("*.weftrec"))
 
@@ -101,10 +76,6 @@ class Keeping(unittest.IsolatedAsyncioTestCase):
         told = replay(self.folder / "hung.2.weftrec", "--validate")
         self.assertEqual(told.returncode, 0, told.stdout)
 
-    def test_a_scene_file_is_named_alone(self):
-        told = subprocess.run([pathlib.Path(BINARY).resolve(), "check", SCENE.name], cwd=SCENES, capture_output=True, text=True, timeout=GENEROUS)
-        self.assertEqual(told.returncode, 0, told.stderr)
-
     async def test_many_kills_leave_no_corrupt_state(self):
         last = (0, 0)
         for kill in range(3 if SANITIZED else 12):
@@ -160,75 +131,6 @@ class Keeping(unittest.IsolatedAsyncioTestCase):
         await self.join(other)
         self.assertIn("another scene by that name", other.wait_for_log("is set aside"))
 
-    async def test_a_client_is_back_within_2_s_with_what_it_held(self):
-        server = self.start("--data", self.data)
-        port = server.port
-        client = await weft.connect(server.url(), timeout=GENEROUS, reconnect=True)
-        self.addAsyncCleanup(client.close)
-        await client.camera(distance=20)
-        grabs = [await client.grab(0, 0.5, share) for share in (0.3, 0.6)]
-        instance, seat = client.welcome["instance"], client.scene["seat"]
-        frame = await client.next_frame(lambda frame: frame.stamp.f > 20)
-        server.terminate(signal.SIGKILL)
-        server.process.wait()
-        await asyncio.sleep(0.6)  # attempts fail
-        killed = asyncio.get_running_loop().time()
-        after = Server(SCENE, "--data", self.data, port=port)
-        self.addCleanup(after.end)
-        back = await client.next_frame(lambda later: later.stamp.epoch > frame.stamp.epoch)
-        if not SANITIZED:
-            self.assertLess(asyncio.get_running_loop().time() - killed, 2)
-        self.assertGreaterEqual(back.stamp.f, frame.stamp.f)
-        for _ in range(100):  # its frames may come before it has resumed
-            try:
-                await client.move_grab(grabs[0], [0, 0.2, 0.3])
-                break
-            except weft.WeftError as error:
-                self.assertEqual(error.code, "not_found")
-                await asyncio.sleep(0.02)
-        await client.release(grabs[1])
-        self.assertNotEqual(client.welcome["instance"], instance)
-        self.assertNotEqual(client.scene["seat"], seat)
-
-    async def test_hands_of_whom_nobody_hears_any_more_let_go_after_5_s(self):
-        server = self.start()
-        watcher = await self.join(server)
-        holder = await self.join(server)
-        grab = await holder.grab(0, 0.5, 0.5)
-        seat = holder.scene["seat"]
-        holder._socket.transport.abort()
-        await self.alone(watcher)
-        heir = await self.join(server)
-        self.assertEqual((await heir.resume_seat(seat))["grabs"], [grab])
-        await heir.move_grab(grab, [0, 0, 1])
-        with self.assertRaisesRegex(weft.WeftError, "nobody is waited for"):
-            await heir.resume_seat(seat)
-        seat = heir.scene["seat"]
-        heir._socket.transport.abort()
-        await asyncio.sleep(5.5)
-        with self.assertRaisesRegex(weft.WeftError, "too late"):
-            await watcher.resume_seat(seat)
-        leaver = await self.join(server)
-        await leaver.grab(0, 0.5, 0.5)
-        seat = leaver.scene["seat"]
-        await leaver.close()  # in order: it does not come back
-        await self.alone(watcher)
-        with self.assertRaises(weft.WeftError):
-            await watcher.resume_seat(seat)
-
-    async def alone(self, client):
-        """Waits until the scene knows that all others have left."""
-        for _ in range(100):
-            if await self.viewers(client) == 1:
-                return
-        self.fail("there are other viewers still")
-
-    async def viewers(self, client):
-        before = client.stats
-        while client.stats is before:
-            await client.next_frame()
-        return client.stats["viewers"]
-
     async def test_a_folder_that_cannot_be_written_stops_no_scene(self):
         server = self.start("--data", self.data)
         client = await self.join(server)
@@ -278,62 +180,6 @@ class Keeping(unittest.IsolatedAsyncioTestCase):
         again = await self.join(after, "mine")
         self.assertGreaterEqual((await again.next_frame()).stamp.f, frame.stamp.f)
         self.assertEqual(ask(after, "DELETE", "mine"), 204)
-
-    async def test_a_recording_is_done_again_to_the_bit(self):
-        server = self.start("--record", self.folder / "recorded")
-        client = await self.join(server)
-        ball = await client.add_ball([0, 0, 1], 0.2, motion="dynamic", mass=0.5)
-        grab = await client.grab(0, 0.5, 0.5)
-        await client.next_frame(lambda frame: frame.stamp.f > 60)
-        await client.throw_ball(ball, [0, 0, -4])
-        await client.move_grab(grab, [0, 0.3, 0.5])
-        await client.camera(distance=0.5)  # other levels
-        await client.next_frame(lambda frame: frame.stamp.f > 130)
-        await client.reset()
-        await client.next_frame(lambda frame: frame.stamp.epoch == 2 and frame.stamp.f > 60)
-        server.terminate()
-        server.process.wait()
-        file = self.folder / "recorded" / "hung.weftrec"
-        told = replay(file, "--validate")
-        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
-        self.assertRegex(told.stdout, r"[3-9] hashes, all as recorded")
-        self.assertEqual(replay(file, "--validate", "--threads", "1").stdout, told.stdout)
-
-        # A second run does not write over the first.
-        self.start("--record", self.folder / "recorded")
-        for _ in range(100):
-            if (self.folder / "recorded" / "hung.2.weftrec").exists():
-                break
-            await asyncio.sleep(0.1)
-        whole = file.read_bytes()
-        self.assertEqual(replay(file).returncode, 0)
-        file.write_bytes(whole[:-20])
-        cut = replay(file, "--validate")
-        self.assertEqual(cut.returncode, 1)
-        self.assertRegex(cut.stdout, r"cut short at byte \d+: read up to there")
-        self.assertRegex(cut.stdout, r"hashes, all as recorded")
-        place = len(whole) // 2
-        file.write_bytes(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1:])
-        # A changed length makes a chunk longer than what is left of the file.
-        self.assertRegex(replay(file).stdout, r"(damaged|cut short) at byte \d+: read up to there")
-        file.write_text("no recording")
-        none = replay(file)
-        self.assertEqual((none.returncode, none.stderr), (1, f"weft: {file}: it is no recording of this format\n"))
-
-    async def test_a_seek_is_to_the_state_that_was(self):
-        server = self.start("--record", self.folder)
-        client = await self.join(server)
-        await client.pause()
-        await client.step(600)
-        await client.next_frame(lambda frame: frame.stamp.f >= 600)
-        await client.step(60)
-        await client.next_frame(lambda frame: frame.stamp.f >= 660)
-        server.terminate()
-        server.process.wait()
-        file = self.folder / "hung.weftrec"
-        at_end = re.search(r"state (\w+)", replay(file, "--validate").stdout).group(1)
-        self.assertEqual(re.search(r"state (\w+)", replay(file, "--seek", "1000").stdout).group(1), at_end)
-        self.assertIn("step 620,", replay(file, "--seek", "10.3333").stdout)
 
 
 if __name__ == "__main__":
