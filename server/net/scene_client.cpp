@@ -20,8 +20,18 @@ namespace {
 constexpr std::size_t kShownBytes = 60;  // of what cannot be read
 /// Before the first attempt to come back, and at most (PROTOCOL.md section 5); jittered down to half.
 constexpr double kFirstWait = 0.25, kLongestWait = 10;  // s
+/// A frame is late, ms beyond what the one before took, and how long a newer one is waited for: a round trip
+/// and a step.
+constexpr int kLateMs = 100;
+constexpr std::chrono::milliseconds kNewer{200};
 /// What is held waits 5 s; in these there are fewer attempts.
 constexpr std::size_t kMostSeats = 8;
+
+/// This side's clock as FrameStamp::server_ms is the server's.
+std::uint32_t now_ms() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
 
 /// A server that does not keep to the protocol may leave any of them out.
 std::string member_text(const json& message, const char* name) {
@@ -107,16 +117,38 @@ void SceneClient::remember(const protocol::Command& command) {
 }
 
 std::optional<SceneClient::Received> SceneClient::next_frame(TimePoint until) {
-  while (newest_.empty()) {
-    if (!client_ && !come_back(until)) return std::nullopt;
+  if (!wait_for_frame(until)) return std::nullopt;
+  Received received = take_newest();
+  const TimePoint end = std::min(until, std::chrono::steady_clock::now() + kNewer);
+  while (client_ && late(received.frame.stamp) && std::chrono::steady_clock::now() < end &&
+         wait_for_frame(end))
+    received = take_newest();
+  usual_ms_ = now_ms() - received.frame.stamp.server_ms;
+  return received;
+}
+
+bool SceneClient::late(const protocol::FrameStamp& stamp) const {
+  // Both clocks wrap: the difference is the shorter way round.
+  return usual_ms_ && static_cast<std::int32_t>(now_ms() - stamp.server_ms - *usual_ms_) > kLateMs;
+}
+
+bool SceneClient::wait_for_frame(TimePoint until) {
+  // What has come already is read without waiting.
+  const auto next = [&] { return receive(newest_.empty() ? until : std::chrono::steady_clock::now()); };
+  while (true) {
+    if (!client_ && !newest_.empty()) return true;
+    if (!client_ && !come_back(until)) return false;
     try {
-      auto message = receive(until);
-      if (!message) return std::nullopt;
+      auto message = next();
+      if (!message) return !newest_.empty();
       take(std::move(*message));
     } catch (const ConnectionError&) {
-      if (!comes_back()) throw;
+      if (newest_.empty() && !comes_back()) throw;
     }
   }
+}
+
+SceneClient::Received SceneClient::take_newest() {
   const std::vector<std::uint8_t> bytes = std::exchange(newest_, {});
   Received received{{}, bytes.size()};
   std::string error;
@@ -143,6 +175,7 @@ void SceneClient::connect() {
   scene_ = nullptr;
   client_ = std::make_unique<Client>(url_, options_.limit, options_.security);
   newest_.clear();
+  usual_ms_.reset();
   capabilities_.clear();
   acks_ = false;
   joining_.reset();

@@ -71,8 +71,9 @@ class SceneClient {
   void post(nlohmann::json message);
 
   /// The newest frame that has not been taken yet, or else the next one; it is acknowledged, so that the
-  /// server sends only as fast as frames are taken. Nothing if none has come by `until`; an attempt to
-  /// connect that has begun by then may take `limit` longer.
+  /// server sends only as fast as frames are taken. What has waited in vain while this program did something
+  /// else is passed over for a newer one, if there is one within 0.2 s. Nothing if none has come by `until`;
+  /// an attempt to connect that has begun by then may take `limit` longer.
   std::optional<Received> next_frame(TimePoint until);
 
   /// The newest `scene` message; null until it has come, which is before the first answer.
@@ -100,6 +101,13 @@ class SceneClient {
   void lose();
   void plan_attempt();
   bool comes_back() const { return options_.reconnect && !closed_; }
+  /// Waits until newest_ holds the newest that has come; whether it does by `until`.
+  bool wait_for_frame(TimePoint until);
+  /// newest_ decoded and acknowledged.
+  Received take_newest();
+  /// Whether the frame has waited for this side to read: it took longer than the one before, by more than 0.1
+  /// s.
+  bool late(const protocol::FrameStamp& stamp) const;
   // Both lose a connection that ends meanwhile, and throw.
   std::optional<Client::Message> receive(TimePoint until);
   void send(const std::string& text);
@@ -119,6 +127,8 @@ class SceneClient {
   std::int64_t asked_ = 0;            ///< id of the command whose answer is waited for; 0: none
   nlohmann::json answer_;             ///< null until it has come
   std::vector<std::uint8_t> newest_;  ///< empty: no frame waits
+  /// From its sending to its being taken, of the frame taken last, ms, both clocks' difference included.
+  std::optional<std::uint32_t> usual_ms_;
 
   std::int64_t hello_ = 0;  ///< its id, until it is answered
   std::vector<std::string> capabilities_;

@@ -104,7 +104,7 @@ test('a ball in the cloth deforms it', async () => {
 test('a ball let go in motion is thrown', async () => {
   await page.fill('#ball-place [data-axis="2"]', '1.5');
   await page.press('#ball-place [data-axis="2"]', 'Enter');
-  const {page: other, flick, errors} = await openByHand(server, 'zheng2020-distance', {width: 900, height: 640});
+  const {page: other, flick, errors, close} = await openByHand(server, 'zheng2020-distance', {width: 900, height: 640});
   await until(other, () => Math.abs(weft.stats.balls[0]?.position[2] - 1.5) < 1e-3 && weft.stats.settled);
   const [{position}] = (await stats(other)).balls;
   const [x, y] = await other.evaluate((at) => weft.toPage(at), position);
@@ -116,6 +116,7 @@ test('a ball let go in motion is thrown', async () => {
     return ball?.motion === 'dynamic' && weft.toPage(ball.position)[0] < fromX - 2 * way && ball.position[1] < fromY - 1;
   }, [[x, y], position, drawn]);
   assert.deepEqual(errors, []);
+  await close();
 });
 
 test('the Throw button throws at the cloth', async () => {

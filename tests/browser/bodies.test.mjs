@@ -99,7 +99,7 @@ test('a box dragged by the mouse follows it, falls when it is let go, and comes 
 
 test('a body let go in motion is thrown', async () => {
   await startAgain();
-  const {page: other, flick, errors} = await openByHand(server, 'bodies', {width: 900, height: 640});
+  const {page: other, flick, errors, close} = await openByHand(server, 'bodies', {width: 900, height: 640});
   const from = await placeOf(kBox), [x, y] = await onPage(from, other);
   await flick(Array.from({length: 7}, (_, i) => [x + 16 * i, y - 16 * i]));
   // 16 pixels in 10 ms are some 10 m/s: it flies on for as long again as the hand had gone, upwards, too.
@@ -110,6 +110,7 @@ test('a body let go in motion is thrown', async () => {
     return atX > fromX + 2 * way && atY > fromY + way;
   }, [kBox, from, drawn]);
   assert.deepEqual(errors, []);
+  await close();
 });
 
 test('an obstacle without a mass stays where it is put', async () => {
@@ -146,7 +147,7 @@ test('the controls do the same: a place by numbers, a throw for what has a mass'
 
 test('a finger drags a body on a narrow page, whose controls fit', async () => {
   await startAgain();
-  const {page: phone, touch, errors} = await openByHand(server, 'bodies', {width: 375, height: 720}, {phone: true});
+  const {page: phone, touch, errors, close} = await openByHand(server, 'bodies', {width: 375, height: 720}, {phone: true});
   const from = (await stats(phone)).obstacles[kCapsule];
   const [x, y] = await onPage(from, phone);
   assert.equal(await obstacleAt([x, y], phone), kCapsule);
@@ -176,6 +177,7 @@ test('a finger drags a body on a narrow page, whose controls fit', async () => {
   assert.deepEqual(wide, []);
   assert.equal(await phone.evaluate(() => document.documentElement.scrollWidth), 375);
   assert.deepEqual(errors, []);
+  await close();
 });
 
 for (const preset of Object.keys(kFlying)) {

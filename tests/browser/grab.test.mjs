@@ -130,7 +130,7 @@ test('double click with Shift pins the cloth there, again unpins it', async () =
 
 test('the hand tool does it with a finger, without Shift', async () => {
   await lieDown();
-  const {page: phone, touch, errors} = await openByHand(server, 'lying', {width: 900, height: 640}, {phone: true});
+  const {page: phone, touch, errors, close} = await openByHand(server, 'lying', {width: 900, height: 640}, {phone: true});
   const pressed = await phone.evaluate(() => {
     const tool = document.getElementById('hand');
     tool.click();
@@ -146,6 +146,7 @@ test('the hand tool does it with a finger, without Shift', async () => {
   await touch('touchEnd');
   await expectFallen(phone);
   assert.deepEqual(errors, []);
+  await close();
 });
 
 test('a window that loses the focus lets go', async () => {

@@ -6,8 +6,8 @@ import {openScene, until} from './harness.mjs';
 
 const kFlickMs = 10, kFingerMs = 20;  // from movement to movement
 
-const inFirefox = [];
-after(() => Promise.all(inFirefox.map((page) => page.close())));  // Chromium's are closed by the harness
+const inFirefox = new Set();
+after(() => Promise.all([...inFirefox].map((page) => page.close())));  // Chromium's are closed by the harness
 
 /**
  * Opens a scene on a page of so many CSS pixels and waits until its cloth is there. `touch` puts one more finger down, moves all or
@@ -16,7 +16,7 @@ after(() => Promise.all(inFirefox.map((page) => page.close())));  // Chromium's 
  * @typedef {number[]} Point CSS pixels
  * @param {{width: number, height: number}} viewport
  * @returns {Promise<{page: {evaluate: Function, waitForFunction: Function}, touch: (type: string, ...points: Point[]) => Promise<void>,
- *          flick: (points: Point[]) => Promise<void>, errors: string[]}>}
+ *          flick: (points: Point[]) => Promise<void>, errors: string[], close: () => Promise<void>}>}
  */
 export const openByHand = (server, scene, viewport, {phone = false} = {}) =>
   kFirefox ? openInFirefox(server, scene, viewport) : openInChromium(server, scene, {viewport, ...(phone && {hasTouch: true, isMobile: true})});
@@ -36,12 +36,13 @@ async function openInChromium(server, scene, window) {
     for (const point of points.slice(1)) await mouse('mouseMoved', point, 1);
     await mouse('mouseReleased', points.at(-1), 0);
   };
-  return {page, touch, flick, errors};
+  return {page, touch, flick, errors, close: () => page.close()};
 }
 
 async function openInFirefox(server, scene, viewport) {
   const page = await BidiPage.open(`${server.address}/?quality=low&scene=${scene}`, viewport);
-  inFirefox.push(page);
+  inFirefox.add(page);
   await until(page, () => window.weft?.stats.connected && weft.stats.cloths.length > 0);
-  return {page, touch: (type, ...points) => page.touch(type, points), flick: (points) => page.flick(points), errors: page.errors};
+  const close = () => inFirefox.delete(page) && page.close();
+  return {page, touch: (type, ...points) => page.touch(type, points), flick: (points) => page.flick(points), errors: page.errors, close};
 }

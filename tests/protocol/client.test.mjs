@@ -17,10 +17,11 @@ const welcome = serverMessages.good.find(({ op }) => op === 'welcome');
 const scene = serverMessages.good.find(({ op }) => op === 'scene');
 const frameBytes = (name) => fromHex(frames.good.find((vector) => vector.name === name).hex);
 
-/** A frame whose header says step `f`. */
-function frameOf(f) {
+/** A frame whose header says step `f`, sent at `serverMs`. */
+function frameOf(f, serverMs = 4115200) {
   const bytes = frameBytes('small');
   new DataView(bytes.buffer).setUint32(16, f, true);
+  new DataView(bytes.buffer).setUint32(32, serverMs, true);
   return bytes;
 }
 
@@ -266,6 +267,19 @@ test('while a handler is busy the newest frame replaces older ones, and nothing 
   assert.deepEqual(await server.expect('ack'), { op: 'ack', f: 1 });
   assert.deepEqual(await server.expect('ack'), { op: 'ack', f: 4 });
   assert.deepEqual(seen, [1, 4]);
+});
+
+test('what waited until the program read again is passed over for a newer frame, if there is one', async () => {
+  const server = await serve();
+  const seen = [];
+  await join(server, { onframe: (frame) => { seen.push(frame.stamp.f); } });
+  // The server's clock wraps round before the third; behind the last one nothing comes.
+  for (const [f, serverMs] of [[1, 2 ** 32 - 2000], [2, 2 ** 32 - 7000], [3, 0], [4, 2 ** 32 - 5000]]) {
+    server.sockets[0].send(frameOf(f, serverMs));
+    assert.deepEqual(await server.expect('ack'), { op: 'ack', f });
+  }
+  while (seen.length < 3) await new Promise((resolve) => { setTimeout(resolve, 10); });
+  assert.deepEqual(seen, [1, 3, 4]);
 });
 
 test('a frame right behind the answer to hello is acknowledged, even with a window of one', async () => {

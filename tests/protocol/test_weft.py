@@ -33,10 +33,11 @@ def frame_bytes(name):
     return bytes.fromhex(next(vector["hex"] for vector in FRAMES["good"] if vector["name"] == name))
 
 
-def frame_of(f):
-    """A frame whose header says step `f`."""
+def frame_of(f, server_ms=4115200):
+    """A frame whose header says step `f`, sent at `server_ms`."""
     data = bytearray(frame_bytes("small"))
     struct.pack_into("<I", data, 16, f)
+    struct.pack_into("<I", data, 32, server_ms)
     return bytes(data)
 
 
@@ -302,6 +303,25 @@ class Client(unittest.IsolatedAsyncioTestCase):
             await scene.pause()  # answered after the frames: they have all come
             self.assertEqual((await scene.next_frame()).stamp.f, 3)
             self.assertEqual(await server.expect("ack"), {"op": "ack", "f": 3})
+
+    async def test_what_waited_until_the_program_read_again_is_passed_over_for_a_newer_frame(self):
+        async with Server() as server, await weft.connect(server.url) as scene:
+            await server.socket.send(frame_of(1, 2 ** 32 - 2000))
+            self.assertEqual((await scene.next_frame(timeout=LIMIT)).stamp.f, 1)
+            waiting = asyncio.create_task(scene.next_frame(timeout=LIMIT))
+            await server.socket.send(frame_of(2, 2 ** 32 - 7000))
+            self.assertEqual([(await server.expect("ack"))["f"] for _ in range(2)], [1, 2])
+            await server.socket.send(frame_of(3, 0))  # its clock has wrapped round since
+            self.assertEqual((await waiting).stamp.f, 3)
+
+    async def test_where_nothing_newer_comes_what_waited_is_given(self):
+        async with Server() as server, await weft.connect(server.url) as scene:
+            await server.socket.send(frame_of(1, 10000))
+            await scene.next_frame(timeout=LIMIT)
+            await server.socket.send(frame_of(2, 5000))
+            with self.assertRaisesRegex(weft.WeftError, "no such frame within 0.01 s"):
+                await scene.next_frame(timeout=0.01)
+            self.assertEqual((await scene.next_frame(timeout=LIMIT)).stamp.f, 2)
 
     async def test_a_frame_right_behind_the_answer_to_hello_is_acknowledged(self):
         async with Server(after_hello=frame_of(9)) as server, await weft.connect(server.url, window=1) as scene:

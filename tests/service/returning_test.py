@@ -3,7 +3,9 @@ import asyncio
 import contextlib
 import json
 import pathlib
+import re
 import signal
+import struct
 import tempfile
 import unittest
 
@@ -13,10 +15,19 @@ import websockets
 
 PING = {"at": 0.5, "op": "ping", "t": 1}  # when all before it has been taken in
 SEATS = [letter * 32 for letter in "abcd"]
+SERVER_MS = 4115200  # FRAME's
 # 2 x 2 nodes at step 120: the example of PROTOCOL.md, section 4.
 FRAME = bytes.fromhex("57454654010101004000010800000000780000000100000000000000000000400"
                       "0cb3e000506000002000200000000000000000000000000"
                       "0000803f0a0000000208021209000000f00f")
+
+
+def frame_at(f, server_ms):
+    """FRAME of another step, sent at `server_ms`."""
+    frame = bytearray(FRAME)
+    struct.pack_into("<I", frame, 16, f)
+    struct.pack_into("<I", frame, 32, server_ms)
+    return bytes(frame)
 
 
 class StandIn:
@@ -124,6 +135,18 @@ class Returning(unittest.IsolatedAsyncioTestCase):
                 await self.until(lambda: server.ops("ping"))
                 self.assertEqual([message["f"] for message in server.ops("ack")], [120] if caps else [])
                 await self.end(client)
+
+    async def test_what_waited_until_it_read_again_is_passed_over_for_a_newer_frame_if_there_is_one(self):
+        async with StandIn(lambda message: {"caps": ["flow.ack"]} if message["op"] == "hello" else {}) as server:
+            client = await self.start(server.url)
+            await self.until(lambda: server.ops("ack"))
+            for f, server_ms in ((121, SERVER_MS - 5000), (122, SERVER_MS), (123, SERVER_MS - 5000)):
+                await server.socket.send(frame_at(f, server_ms))
+                await self.until(lambda f=f: server.ops("ack")[-1]["f"] == f)
+            await asyncio.sleep(1)  # the last one is given after 0.2 s
+            client.send_signal(signal.SIGINT)
+            said, _ = await asyncio.wait_for(client.communicate(), GENEROUS)
+            self.assertEqual(re.findall(r"frame (\d+) ", said.decode()), ["120", "122", "123"])
 
     async def test_a_refused_hello_ends_it(self):
         refused = {"op": "error", "code": "range", "path": "/window", "message": "/window is 4; allowed: 1..2"}

@@ -1,6 +1,13 @@
 /** The server's clock, as far as pings tell (PROTOCOL.md: `pong.server_ms`). */
 
 const WRAP = 2 ** 32;  // ms
+/** A frame that is by so much later than the one before has waited until this side read again, ms. */
+const LATE = 100;
+
+/** Of clocks that wrap: the difference `ms` as it is meant. @param {number} ms */
+function unwrapped(ms) {
+  return ms - WRAP * Math.round(ms / WRAP);
+}
 
 export class ServerClock {
   #quickest = Infinity;
@@ -15,7 +22,21 @@ export class ServerClock {
 
   /** How long ago it was `serverMs`, ms; NaN before the first ping. @param {number} serverMs */
   age(serverMs) {
-    const age = (performance.now() + this.#offset - serverMs) % WRAP;
-    return age - WRAP * Math.round(age / WRAP);
+    return unwrapped(performance.now() + this.#offset - serverMs);
+  }
+}
+
+/** Tells frames that have waited for this side to read from those whose way is long. */
+export class Arrivals {
+  #usual = NaN;  // from its sending to its being taken, the last one's, ms, both clocks' difference included
+
+  /** Whether a frame sent at `serverMs` is taken later than the one before it was, by more than `LATE`. @param {number} serverMs */
+  late(serverMs) {
+    return unwrapped(performance.now() - serverMs - this.#usual) > LATE;
+  }
+
+  /** @param {number} serverMs */
+  taken(serverMs) {
+    this.#usual = performance.now() - serverMs;
   }
 }

@@ -1,6 +1,10 @@
 /** Frames on their way to who wants them: the newest wins. */
+import { Arrivals } from './clock.js';
 import { WeftError } from './errors.js';
 import { decodeFrame } from './frames.js';
+
+/** That a newer frame is waited for: a round trip and a step, ms. */
+const NEWER = 200;
 
 /**
  * @typedef {import('./types.js').Frame} Frame
@@ -20,6 +24,9 @@ export class Delivery {
   /** @type {ArrayBuffer|null} */
   #newest = null;
   #delivering = false;
+  #arrivals = new Arrivals();
+  /** Ends the wait for a newer frame early. @type {(() => void)|null} */
+  #news = null;
   /** @type {Set<{accept: (frame: Frame) => boolean, resolve: (frame: Frame) => void, reject: (error: Error) => void, timer: any}>} */
   #waiters = new Set();
 
@@ -31,12 +38,14 @@ export class Delivery {
   /** Takes a binary message, in place of one that has not been delivered yet. @param {ArrayBuffer} message */
   put(message) {
     this.#newest = message;
+    this.#news?.();
     this.deliver();
   }
 
-  /** Forgets what has not been delivered yet. */
+  /** Forgets the connection before. */
   clear() {
     this.#newest = null;
+    this.#arrivals = new Arrivals();
   }
 
   /** The next frame for which `accept` is true. @param {(frame: Frame) => boolean} accept @param {number} timeout ms @returns {Promise<Frame>} */
@@ -59,16 +68,27 @@ export class Delivery {
     this.#waiters.clear();
   }
 
-  /** Gives the newest frame to the listeners, then acknowledges it; what comes meanwhile waits as the newest. */
+  /**
+   * Gives the newest frame to the listeners, then acknowledges it; what comes meanwhile waits as the newest. One that is late has
+   * waited until this program read again and is old: a newer one is waited for first, for `NEWER` at most, as nothing may move.
+   */
   async deliver() {
     if (this.#delivering) return;
     this.#delivering = true;
     const { ready, begin, onframe, onerror, local } = this.#recipient;
     while (ready() && this.#newest) {
-      const acknowledge = begin(), message = this.#newest;
-      this.#newest = null;
       try {
-        const frame = decodeFrame(message, { local });
+        let acknowledge = begin(), frame = this.#take(local);
+        const end = performance.now() + NEWER;
+        while (this.#arrivals.late(frame.stamp.serverMs) && performance.now() < end) {
+          acknowledge(frame);
+          acknowledge = () => {};
+          if (!this.#newest) await this.#newer(end - performance.now());
+          if (!this.#newest || !ready()) break;
+          acknowledge = begin();
+          frame = this.#take(local);
+        }
+        this.#arrivals.taken(frame.stamp.serverMs);
         this.frame = frame;
         this.#tellWaiters(frame);
         try {
@@ -81,6 +101,24 @@ export class Delivery {
       }
     }
     this.#delivering = false;
+  }
+
+  /** @param {boolean} [local] */
+  #take(local) {
+    const message = /** @type {ArrayBuffer} */ (this.#newest);
+    this.#newest = null;
+    return decodeFrame(message, { local });
+  }
+
+  /** Waits for another frame, for `ms` at most. @param {number} ms @returns {Promise<void>} */
+  #newer(ms) {
+    return new Promise((resolve) => {
+      const timer = setTimeout(resolve, ms);
+      this.#news = () => {
+        clearTimeout(timer);
+        resolve();
+      };
+    });
   }
 
   /** @param {Frame} frame */

@@ -13,8 +13,8 @@ from websockets.legacy.client import WebSocketClientProtocol
 
 from .clock import ServerClock, now
 from .commands import Commands
+from .delivery import Delivery
 from .errors import WeftError
-from .frames import decode_frame
 from .messages import message_text
 from .requests import Requests
 from .transport import Transport, backoff
@@ -71,8 +71,7 @@ class Client(Commands):
         self._closing = False
         self._lost: WeftError | None = None
         self._requests, self._clock = Requests(timeout), ServerClock()
-        self._newest: bytes | None = None
-        self._news = asyncio.Event()  # a frame has come, or the connection has ended
+        self._frames = Delivery(self._check, self._acknowledge)
         self._greeted = asyncio.Event()
         self._greeted_once = False
         self._returning: asyncio.Task[None] | None = None  # while the connection is made again
@@ -92,7 +91,7 @@ class Client(Commands):
         if self._returning is not None:
             self._returning.cancel()
             await asyncio.wait([self._returning])
-            self._news.set()
+            self._frames.wake()
         if self._socket is not None:
             with contextlib.suppress(ConnectionClosed):  # the server has gone already
                 await self._socket.close()
@@ -145,21 +144,21 @@ class Client(Commands):
 
     async def __anext__(self) -> Frame:
         """The newest frame not seen yet, acknowledged as it is taken. Frames nobody takes are not acknowledged, and the server
-        then stops sending. Ends when either side closes in order; raises WeftError when the connection is lost and not made
-        again."""
-        while self._newest is None:
-            if self._lost and (self._closing or self._returning is None or self._returning.done()):
-                if self._closing or self._socket is None or self._socket.close_code in (1000, 1001):
-                    raise StopAsyncIteration
-                raise self._lost
-            self._news.clear()
-            await self._news.wait()
-        message, self._newest = self._newest, None
-        frame = decode_frame(message)
+        then stops sending: what has waited so until this program read again is passed over for a newer one, if there is one
+        within 0.2 s. Ends when either side closes in order; raises WeftError when the connection is lost and not made again."""
+        return await self._frames.take()
+
+    def _check(self) -> None:
+        """Raises what ends the frames, if the connection is lost and will not be made again."""
+        if self._lost and (self._closing or self._returning is None or self._returning.done()):
+            if self._closing or self._socket is None or self._socket.close_code in (1000, 1001):
+                raise StopAsyncIteration
+            raise self._lost
+
+    async def _acknowledge(self, frame: Frame) -> None:
         if self._acks and not self._lost:
             with contextlib.suppress(WeftError):  # closed meanwhile: the next frame asked for tells
                 await self.post("ack", f=frame.stamp.f)
-        return frame
 
     async def next_frame(self, accept: typing.Callable[[Frame], object] = lambda frame: True,
                          timeout: float | None = None) -> Frame:
@@ -181,7 +180,7 @@ class Client(Commands):
         self._before = [*self._before, *([self.scene] if self.scene.get("seat") else [])][-_MOST_SEATS:] if self._held else []
         self.welcome, self.scene, self._lost, self._acks = {}, {}, None, False
         self._clock = ServerClock()
-        self._newest = None  # of the connection before
+        self._frames.clear()
         self._greeted.clear()
         try:
             await asyncio.wait_for(self._greet(), self._timeout)
@@ -240,8 +239,7 @@ class Client(Commands):
         try:
             async for message in socket:
                 if isinstance(message, bytes):
-                    self._newest = message
-                    self._news.set()
+                    self._frames.put(message)
                 else:
                     self._receive(json.loads(message))
         except ConnectionClosed:
@@ -252,7 +250,7 @@ class Client(Commands):
         code, reason = socket.close_code, socket.close_reason
         self._lost = error or WeftError("closed", f"connection closed with {code}{f': {reason}' if reason else ''}")
         self._requests.fail(self._lost)
-        self._news.set()
+        self._frames.wake()
         self._greeted.set()
         returning = self._returning is not None and not self._returning.done()
         if self._reconnect and not self._closing and error is None and not returning and self._greeted_once:

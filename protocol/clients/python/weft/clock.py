@@ -6,6 +6,7 @@ import time
 import typing
 
 WRAP_MS = 2.0 ** 32
+LATE_MS = 100.0  #: a frame that is by so much later than the one before has waited until this side read again
 
 now = time.monotonic  #: s, of this side
 
@@ -23,3 +24,17 @@ class ServerClock:
     def age(self, server_ms: float) -> float:
         """How long ago it was `server_ms`, ms; NaN before the first ping."""
         return math.remainder(1000 * now() + self._offset_ms - server_ms, WRAP_MS)
+
+
+class Arrivals:
+    """Tells frames that have waited for this side to read from those whose way is long."""
+
+    def __init__(self) -> None:
+        self._usual_ms = math.nan  # from its sending to its being taken, the last one's, both clocks' difference included
+
+    def late(self, server_ms: float) -> bool:
+        """Whether a frame sent at `server_ms` is taken later than the one before it was, by more than `LATE_MS`."""
+        return math.remainder(1000 * now() - server_ms - self._usual_ms, WRAP_MS) > LATE_MS
+
+    def taken(self, server_ms: float) -> None:
+        self._usual_ms = 1000 * now() - server_ms
