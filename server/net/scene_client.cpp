@@ -94,18 +94,18 @@ void SceneClient::post(json message) {
 std::optional<Client::Message> SceneClient::receive(TimePoint until) {
   try {
     return client_->receive(until);
-  } catch (const ConnectionError&) {
-    lose();
+  } catch (const ConnectionError& error) {
+    lose(error.what());
     throw;
   }
 }
 
 void SceneClient::send(const std::string& text) {
-  if (!client_) throw ConnectionError("the connection has ended");
+  if (!client_) throw ConnectionError(ended_);
   try {
     client_->send(text);
-  } catch (const ConnectionError&) {
-    lose();
+  } catch (const ConnectionError& error) {
+    lose(error.what());
     throw;
   }
 }
@@ -117,13 +117,22 @@ void SceneClient::remember(const protocol::Command& command) {
 }
 
 std::optional<SceneClient::Received> SceneClient::next_frame(TimePoint until) {
-  if (!wait_for_frame(until)) return std::nullopt;
+  while (newest_.empty()) {
+    if (!client_ && !come_back(until)) return std::nullopt;
+    try {
+      if (!read_frame(until)) return std::nullopt;
+    } catch (const ConnectionError&) {
+      if (newest_.empty() && !comes_back()) throw;
+    }
+  }
   Received received = take_newest();
   const TimePoint end = std::min(until, std::chrono::steady_clock::now() + kNewer);
-  while (client_ && late(received.frame.stamp) && std::chrono::steady_clock::now() < end &&
-         wait_for_frame(end))
-    received = take_newest();
-  usual_ms_ = now_ms() - received.frame.stamp.server_ms;
+  try {
+    while (client_ && late(received.frame.stamp) && std::chrono::steady_clock::now() < end && read_frame(end))
+      received = take_newest();
+  } catch (const ConnectionError&) {  // this is the last one
+  }
+  if (client_) usual_ms_ = now_ms() - received.frame.stamp.server_ms;
   return received;
 }
 
@@ -132,20 +141,11 @@ bool SceneClient::late(const protocol::FrameStamp& stamp) const {
   return usual_ms_ && static_cast<std::int32_t>(now_ms() - stamp.server_ms - *usual_ms_) > kLateMs;
 }
 
-bool SceneClient::wait_for_frame(TimePoint until) {
+bool SceneClient::read_frame(TimePoint until) {
   // What has come already is read without waiting.
-  const auto next = [&] { return receive(newest_.empty() ? until : std::chrono::steady_clock::now()); };
-  while (true) {
-    if (!client_ && !newest_.empty()) return true;
-    if (!client_ && !come_back(until)) return false;
-    try {
-      auto message = next();
-      if (!message) return !newest_.empty();
-      take(std::move(*message));
-    } catch (const ConnectionError&) {
-      if (newest_.empty() && !comes_back()) throw;
-    }
-  }
+  while (auto message = receive(newest_.empty() ? until : std::chrono::steady_clock::now()))
+    take(std::move(*message));
+  return !newest_.empty();
 }
 
 SceneClient::Received SceneClient::take_newest() {
@@ -186,7 +186,7 @@ void SceneClient::connect() {
 }
 
 bool SceneClient::come_back(TimePoint until) {
-  if (!comes_back()) throw ConnectionError("the connection has ended");
+  if (!comes_back()) throw ConnectionError(ended_);
   while (!client_) {
     std::this_thread::sleep_until(std::min(next_attempt_, until));
     if (next_attempt_ > until) return false;
@@ -194,9 +194,9 @@ bool SceneClient::come_back(TimePoint until) {
       connect();
       restore();
       attempts_ = 0;
-    } catch (const ConnectionError&) {
+    } catch (const ConnectionError& error) {
       if (client_) {
-        lose();
+        lose(error.what());
       } else {
         plan_attempt();
       }
@@ -230,7 +230,8 @@ void SceneClient::restore() {
       held_, [&](std::uint32_t grab) { return std::find(grabs.begin(), grabs.end(), grab) == grabs.end(); });
 }
 
-void SceneClient::lose() {
+void SceneClient::lose(const char* why) {
+  ended_ = why;
   // One that breaks before it has taken over what an older one held is only the next to be asked for.
   const std::string token = member_text(scene_, "seat");
   if (held_.empty()) {

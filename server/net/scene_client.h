@@ -98,11 +98,11 @@ class SceneClient {
   /// Where it was before, as far as that can be.
   void restore();
   /// The connection has ended.
-  void lose();
+  void lose(const char* why);
   void plan_attempt();
   bool comes_back() const { return options_.reconnect && !closed_; }
   /// Waits until newest_ holds the newest that has come; whether it does by `until`.
-  bool wait_for_frame(TimePoint until);
+  bool read_frame(TimePoint until);
   /// newest_ decoded and acknowledged.
   Received take_newest();
   /// Whether the frame has waited for this side to read: it took longer than the one before, by more than 0.1
@@ -121,7 +121,8 @@ class SceneClient {
 
   Url url_;
   SceneClientOptions options_;
-  std::unique_ptr<Client> client_;  ///< null while there is no connection
+  std::unique_ptr<Client> client_;                  ///< null while there is no connection
+  std::string ended_ = "the connection has ended";  ///< why
   std::int64_t last_id_ = 0;
   nlohmann::json scene_;
   std::int64_t asked_ = 0;            ///< id of the command whose answer is waited for; 0: none

@@ -79,16 +79,18 @@ export class Delivery {
     while (ready() && this.#newest) {
       try {
         let acknowledge = begin(), frame = this.#take(local);
-        const end = performance.now() + NEWER;
-        while (this.#arrivals.late(frame.stamp.serverMs) && performance.now() < end) {
+        const arrivals = this.#arrivals, end = performance.now() + NEWER;
+        const current = () => ready() && this.#arrivals === arrivals;  // of this connection
+        while (arrivals.late(frame.stamp.serverMs) && performance.now() < end) {
           acknowledge(frame);
           acknowledge = () => {};
           if (!this.#newest) await this.#newer(end - performance.now());
-          if (!this.#newest || !ready()) break;
+          if (!this.#newest || !current()) break;
           acknowledge = begin();
           frame = this.#take(local);
         }
-        this.#arrivals.taken(frame.stamp.serverMs);
+        if (!current()) continue;
+        arrivals.taken(frame.stamp.serverMs);
         this.frame = frame;
         this.#tellWaiters(frame);
         try {
