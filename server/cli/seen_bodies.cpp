@@ -93,10 +93,9 @@ void SeenBodies::add_obstacle(const json& obstacle, std::size_t index, const Get
   } else {
     return;
   }
-  const Quaternion turned =
-      shape == PlaneDescription::kName
-          ? Quaternion::FromTwoVectors(Vec3::UnitY(), vector_of_json(obstacle.at("normal")))
-          : quaternion_of(obstacle.at("quaternion"));
+  const Quaternion turned = shape == PlaneDescription::kName
+                                ? turn_from_y(vector_of_json(obstacle.at("normal")))
+                                : quaternion_of(obstacle.at("quaternion"));
   poses_.push_back({vector_of_json(obstacle.at("position")), turned});
   ids_.push_back(static_cast<std::uint32_t>(index));
 }

@@ -3,34 +3,26 @@
 #include <utility>
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
-#include <boost/beast/websocket/stream.hpp>
 
+#include "net/client_socket.h"
 #include "net/resolve.h"
-#include "net/secure.h"
-#include "net/transport.h"
-#include "protocol/message.h"
 
 namespace weft::net {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-namespace websocket = beast::websocket;
-using asio::ip::tcp;
 using beast::error_code;
 
 namespace {
 
 constexpr auto kSendTime = std::chrono::seconds(10);
 constexpr auto kGoodbyeTime = std::chrono::seconds(2);
-/// A frame of section 6's largest records, for a scene of many cloths.
-constexpr std::size_t kMessageBytes = 64 << 20;
 
 /// Runs `io` until `done`, at most until `until`; whether it is done.
 template <class Done>
@@ -44,36 +36,14 @@ bool run_until(asio::io_context& io, std::chrono::steady_clock::time_point until
   return true;
 }
 
-/// Begins TLS on a stream that is connected, with whom the URL names.
-void secure(asio::io_context& io, Transport& stream, const Url& url, const ClientSecurity& security) {
-  TlsContext context;
+/// Null where the URL asks for none. Throws ConnectionError where no certificate can be read.
+TlsContext tls_of(const Url& url, const ClientSecurity& security) {
+  if (!url.secure) return nullptr;
   try {
-    context = client_tls(security.authorities);
+    return client_tls(security.authorities);
   } catch (const std::runtime_error& error) {
     throw ConnectionError(error.what());
   }
-  std::optional<error_code> result;
-  begin_client_tls(stream, context, url, security, [&](error_code error) { result = error; });
-  run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
-  if (*result) throw ConnectionError("no TLS with " + host_header(url) + ": " + result->message());
-}
-
-/// Connects within `limit`; later operations have the same end of time.
-void connect(asio::io_context& io, Transport& stream, const Url& url, std::chrono::milliseconds limit,
-             const ClientSecurity& security) {
-  const auto found = resolve(io, url);
-  std::optional<error_code> result;
-  TcpStream& tcp = stream.next_layer();
-  tcp.expires_after(limit);
-  tcp.async_connect(found, [&](error_code error, const tcp::endpoint&) { result = error; });
-  run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
-  if (*result) throw ConnectionError("cannot connect to " + host_header(url) + ": " + result->message());
-  if (url.secure) secure(io, stream, url, security);
-}
-
-template <class Request>
-void show_token(Request& request, const ClientSecurity& security) {
-  if (!security.token.empty()) request.set(http::field::authorization, "Bearer " + security.token);
 }
 
 }  // namespace
@@ -107,14 +77,18 @@ Url Url::parse(std::string_view text) {
 HttpReply http_get(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security) {
   asio::io_context io{1};
   Transport stream{TcpStream(io)};
-  connect(io, stream, url, limit, security);
+  std::optional<error_code> result;
+  connect(stream, resolve(io, url), url, security, tls_of(url, security), limit,
+          [&](error_code error) { result = error; });
+  run_until(io, std::chrono::steady_clock::time_point::max(), [&] { return result.has_value(); });
+  if (*result) throw ConnectionError(why_not_connected(stream, url, *result));
   http::request<http::empty_body> request{http::verb::get, url.target, 11};
   request.set(http::field::host, host_header(url));
   request.set(http::field::connection, "close");
-  show_token(request, security);
+  if (!security.token.empty()) request.set(http::field::authorization, "Bearer " + security.token);
   beast::flat_buffer buffer;
   http::response<http::string_body> response;
-  std::optional<error_code> result;
+  result.reset();
   http::async_write(stream, request, [&](error_code error, std::size_t) {
     if (error) {
       result = error;
@@ -129,12 +103,16 @@ HttpReply http_get(const Url& url, std::chrono::milliseconds limit, const Client
 }
 
 struct Client::Impl {
+  Impl(const Url& to, const ClientSecurity& with) : url(to), security(with) {}
   void read();
-  [[noreturn]] void fail(const char* doing, error_code error) const;
+  [[noreturn]] void fail(std::string_view doing, error_code error) const {
+    throw ConnectionError(socket.why(doing, error));
+  }
 
+  const Url url;
+  const ClientSecurity security;
   asio::io_context io{1};
-  websocket::stream<Transport> ws{TcpStream(io)};
-  beast::flat_buffer incoming;
+  ClientSocket socket{io, url, security, tls_of(url, security)};
   bool reading = false;
   std::optional<error_code> read_result;
 };
@@ -142,57 +120,29 @@ struct Client::Impl {
 void Client::Impl::read() {
   reading = true;
   read_result.reset();
-  ws.async_read(incoming, [this](error_code error, std::size_t) {
+  socket.read([this](error_code error) {
     reading = false;
     read_result = error;
   });
 }
 
-void Client::Impl::fail(const char* doing, error_code error) const {
-  if (error == websocket::error::closed) {
-    throw ConnectionError("the server closed the connection: " + std::to_string(ws.reason().code) + " " +
-                          std::string(ws.reason().reason.data(), ws.reason().reason.size()));
-  }
-  throw ConnectionError(std::string(doing) + ": " + error.message());
-}
-
 Client::Client(const Url& url, std::chrono::milliseconds limit, const ClientSecurity& security)
-    : impl_(std::make_unique<Impl>()) {
-  auto& ws = impl_->ws;
-  connect(impl_->io, ws.next_layer(), url, limit, security);
-  beast::get_lowest_layer(ws).socket().set_option(tcp::no_delay(true));
-  beast::get_lowest_layer(ws).expires_never();
-  ws.set_option(websocket::stream_base::timeout{limit, websocket::stream_base::none(), false});
-  ws.set_option(websocket::stream_base::decorator([&security](websocket::request_type& request) {
-    show_token(request, security);
-    request.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
-    request.set(http::field::user_agent, "weft client");
-  }));
-  ws.read_message_max(kMessageBytes);
+    : impl_(std::make_unique<Impl>(url, security)) {
   std::optional<error_code> result;
-  websocket::response_type response;
-  ws.async_handshake(response, host_header(url), url.target, [&](error_code error) { result = error; });
+  impl_->socket.open(resolve(impl_->io, url), limit, [&](error_code error) { result = error; });
   run_until(impl_->io, TimePoint::max(), [&] { return result.has_value(); });
-  if (*result == websocket::error::upgrade_declined) {
-    std::string words = response.body();
-    while (!words.empty() && words.back() == '\n') words.pop_back();
-    throw ConnectionError("the server refused: " + std::to_string(response.result_int()) + " " + words);
-  }
-  if (*result)
-    throw ConnectionError("no WebSocket at " + host_header(url) + url.target + ": " + result->message());
+  if (*result) impl_->fail("connecting", *result);
 }
 
 Client::~Client() = default;
 
 void Client::send(std::string_view text) {
   std::optional<error_code> result;
-  impl_->ws.text(true);
-  impl_->ws.async_write(asio::buffer(text.data(), text.size()),
-                        [&](error_code error, std::size_t) { result = error; });
+  impl_->socket.write(text, [&](error_code error) { result = error; });
   if (!run_until(impl_->io, std::chrono::steady_clock::now() + kSendTime,
                  [&] { return result.has_value(); })) {
     // The handler refers to this call: it must have run before it ends.
-    beast::get_lowest_layer(impl_->ws).close();
+    impl_->socket.drop();
     run_until(impl_->io, TimePoint::max(), [&] { return result.has_value(); });
     throw ConnectionError("the server does not read");
   }
@@ -204,21 +154,18 @@ std::optional<Client::Message> Client::receive(TimePoint until) {
   if (!self.reading && !self.read_result) self.read();
   if (!run_until(self.io, until, [&] { return self.read_result.has_value(); })) return std::nullopt;
   if (*self.read_result) self.fail("receiving", *self.read_result);
-  const auto data = self.incoming.data();
-  const auto* bytes = static_cast<const std::uint8_t*>(data.data());
-  Message message{self.ws.got_binary(), {bytes, bytes + data.size()}};
-  self.incoming.clear();
+  const auto bytes = self.socket.received();
   self.read_result.reset();
-  return message;
+  return Message{!self.socket.is_text(), {bytes.begin(), bytes.end()}};
 }
 
 void Client::close() {
   Impl& self = *impl_;
   std::optional<error_code> result;
-  self.ws.async_close(websocket::close_code::normal, [&](error_code error) { result = error; });
+  self.socket.close([&](error_code error) { result = error; });
   if (!run_until(self.io, std::chrono::steady_clock::now() + kGoodbyeTime,
                  [&] { return result.has_value(); })) {
-    beast::get_lowest_layer(self.ws).close();
+    self.socket.drop();
     run_until(self.io, TimePoint::max(), [&] { return result.has_value(); });
   }
 }

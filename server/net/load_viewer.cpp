@@ -8,11 +8,6 @@
 
 namespace weft::net {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
 
 namespace {
@@ -24,54 +19,21 @@ double now_ms() { return std::chrono::duration<double, std::milli>(Clock::now().
 
 }  // namespace
 
-LoadViewer::LoadViewer(asio::io_context& io, const Url& url, const ClientSecurity& security, TlsContext tls,
-                       const Manner& manner, LoadTally& tally)
-    : ws_(TcpStream(io)),
-      pause_(io),
-      tls_(std::move(tls)),
-      url_(url),
-      security_(security),
-      manner_(manner),
-      tally_(tally) {}
+LoadViewer::LoadViewer(boost::asio::io_context& io, const Url& url, const ClientSecurity& security,
+                       TlsContext tls, const Manner& manner, LoadTally& tally)
+    : socket_(io, url, security, std::move(tls)), pause_(io), manner_(manner), tally_(tally) {}
 
-void LoadViewer::join(const tcp::resolver::results_type& where) {
-  beast::get_lowest_layer(ws_).expires_after(kJoinTime);
-  beast::get_lowest_layer(ws_).async_connect(
-      where, [self = shared_from_this()](error_code error, const tcp::endpoint&) {
-        if (error) return self->fail("connecting", error);
-        if (self->tls_) return self->begin_tls();
-        self->shake_hands();
-      });
+void LoadViewer::join(const boost::asio::ip::tcp::resolver::results_type& where) {
+  socket_.open(where, kJoinTime, [self = shared_from_this()](error_code error) {
+    if (error) return self->fail("joining", error);
+    self->greet();
+  });
 }
 
 void LoadViewer::leave() {
   leaving_ = true;
-  beast::get_lowest_layer(ws_).close();
+  socket_.drop();
   pause_.cancel();
-}
-
-void LoadViewer::begin_tls() {
-  begin_client_tls(ws_.next_layer(), tls_, url_, security_, [self = shared_from_this()](error_code error) {
-    if (error) return self->fail("TLS", error);
-    self->shake_hands();
-  });
-}
-
-void LoadViewer::shake_hands() {
-  beast::get_lowest_layer(ws_).expires_never();
-  error_code ignored;
-  beast::get_lowest_layer(ws_).socket().set_option(tcp::no_delay(true), ignored);
-  ws_.set_option(websocket::stream_base::timeout{kJoinTime, websocket::stream_base::none(), false});
-  ws_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
-    if (!security_.token.empty()) request.set(http::field::authorization, "Bearer " + security_.token);
-    request.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
-  }));
-  ws_.read_message_max(std::size_t{64} << 20);
-  ws_.async_handshake(response_, host_header(url_), url_.target,
-                      [self = shared_from_this()](error_code error) {
-                        if (error) return self->fail("joining", error);
-                        self->greet();
-                      });
 }
 
 void LoadViewer::greet() {
@@ -89,8 +51,7 @@ void LoadViewer::say(const protocol::Command& command) {
 }
 
 void LoadViewer::write() {
-  ws_.text(true);
-  ws_.async_write(asio::buffer(queue_.front()), [self = shared_from_this()](error_code error, std::size_t) {
+  socket_.write(queue_.front(), [self = shared_from_this()](error_code error) {
     if (error) return;  // the read that is under way tells why
     self->queue_.pop_front();
     if (!self->queue_.empty()) self->write();
@@ -98,19 +59,16 @@ void LoadViewer::write() {
 }
 
 void LoadViewer::read() {
-  ws_.async_read(incoming_, [self = shared_from_this()](error_code error, std::size_t) {
+  socket_.read([self = shared_from_this()](error_code error) {
     if (error) return self->fail("reading", error);
-    self->take();
-    self->incoming_.clear();
+    self->take(self->socket_.received());
     self->read();
   });
 }
 
-void LoadViewer::take() {
-  const auto data = incoming_.data();
-  const auto* bytes = static_cast<const std::uint8_t*>(data.data());
-  if (ws_.got_text()) return take_text({reinterpret_cast<const char*>(bytes), data.size()});
-  const auto stamp = protocol::read_stamp({bytes, data.size()});
+void LoadViewer::take(std::span<const std::uint8_t> bytes) {
+  if (socket_.is_text()) return take_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const auto stamp = protocol::read_stamp(bytes);
   if (!stamp) return;
   if (!std::exchange(joined_, true)) {
     ++tally_.joined;
@@ -119,7 +77,7 @@ void LoadViewer::take() {
   if (tally_.measuring) {
     ++frames_;
     ++tally_.frames;
-    tally_.bytes += data.size();
+    tally_.bytes += bytes.size();
     if (!manner_.slow && clock_offset_) {
       const double age = std::fmod(now_ms() + *clock_offset_ - stamp->server_ms, kClockWraps);
       tally_.ages.push_back(age - kClockWraps * std::round(age / kClockWraps));
@@ -149,12 +107,7 @@ void LoadViewer::take_text(std::string_view text) {
 
 void LoadViewer::fail(const char* doing, error_code error) {
   if (leaving_) return;
-  std::string why = std::string(doing) + ": " + error.message();
-  if (error == websocket::error::upgrade_declined)
-    why = "refused: " + std::to_string(response_.result_int()) + " " + response_.body();
-  if (error == websocket::error::closed) why = "closed: " + std::to_string(ws_.reason().code);
-  while (why.ends_with('\n')) why.pop_back();
-  tally_.failures.push_back(std::move(why));
+  tally_.failures.push_back(socket_.why(doing, error));
   if (!joined_) ++tally_.settled;
 }
 

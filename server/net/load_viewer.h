@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,11 +13,9 @@
 // Boost 1.74 needs <utility> before it.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/websocket/stream.hpp>
 
 #include "net/client.h"
-#include "net/secure.h"
+#include "net/client_socket.h"
 #include "protocol/message.h"
 
 namespace weft::net {
@@ -57,29 +56,22 @@ class LoadViewer : public std::enable_shared_from_this<LoadViewer> {
  private:
   using error_code = boost::beast::error_code;
 
-  void begin_tls();
-  void shake_hands();
   void greet();
   /// Asks for no reply: as clients send what they send most.
   void say(const protocol::Command& command);
   void write();
   void read();
-  void take();
+  void take(std::span<const std::uint8_t> bytes);
   /// It takes each frame as it comes.
   bool takes_all() const;
   double next_due() const { return takes_all() ? 0 : due_ms_ + 1e3 / manner_.rate; }
   void take_text(std::string_view text);
   void fail(const char* doing, error_code error);
 
-  boost::beast::websocket::stream<Transport> ws_;
+  ClientSocket socket_;
   SteadyTimer pause_;
-  const TlsContext tls_;
-  const Url& url_;
-  const ClientSecurity& security_;
   const Manner manner_;
   LoadTally& tally_;
-  boost::beast::websocket::response_type response_;
-  boost::beast::flat_buffer incoming_;
   std::deque<std::string> queue_;  ///< of what is being sent the first; one that is pushed moves none
   std::uint64_t frames_ = 0;
   std::uint32_t shown_ = 0;

@@ -1,6 +1,5 @@
 #include "scene/pin_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <string>
@@ -51,7 +50,7 @@ struct Pull {
 /// Its moments of inertia by its mass; the least, m2.
 double least_inertia(const ObstacleDescription& body) {
   const Shape shape = std::visit([](const auto& own) { return own.shape(); }, body.shape);
-  return mass_properties(shape).inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  return principal_moments(mass_properties(shape).inertia)[0];
 }
 
 void add_pulls(const SimulationDescription& simulation, std::size_t cloth, std::map<int, Pull>& pulls) {

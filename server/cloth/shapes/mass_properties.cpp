@@ -1,13 +1,16 @@
 #include "cloth/shapes/mass_properties.h"
 
-#include <Eigen/Eigenvalues>
 #include <stdexcept>
+
+#include "cloth/core/small_system.h"
 
 namespace weft {
 
 Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second_moment) {
   return second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
 }
+
+Vec3 principal_moments(const Eigen::Matrix3d& inertia) { return spectrum_of(inertia).values; }
 
 MassProperties mass_properties(const TriangleList& surface) {
   // From a corner: from far away the tetrahedra would cancel.
@@ -30,7 +33,7 @@ MassProperties mass_properties(const TriangleList& surface) {
   const Vec3 centre = first / (4 * volume);
   MassProperties found{origin + centre,
                        inertia_of(Eigen::Matrix3d(second / (20 * volume) - centre * centre.transpose()))};
-  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(found.inertia).eigenvalues();
+  const Vec3 principal = principal_moments(found.inertia);
   constexpr double kFlattest = 1e-9;  // of the largest moment
   if (!(volume > 0) || !(principal.minCoeff() > kFlattest * principal.maxCoeff())) {
     throw std::invalid_argument("is too thin to have a mass");

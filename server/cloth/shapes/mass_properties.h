@@ -13,6 +13,9 @@ struct MassProperties {
 /// Inertia per kg, m2, from the mean of x x^T over the mass, m2.
 Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second_moment);
 
+/// The moments about its principal axes, ascending.
+Vec3 principal_moments(const Eigen::Matrix3d& inertia);
+
 /// Sphere, box and capsule in closed form, a mesh as below. Throws std::invalid_argument of a half-space,
 /// which has no end, and as below.
 MassProperties mass_properties(const Shape& shape);

@@ -1,9 +1,8 @@
 #include "cloth/sheet/freedom.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 
+#include "cloth/core/small_system.h"
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/sheet/motion.h"
 
@@ -32,11 +31,11 @@ Freedom Freedom::beside(const std::vector<Push>& pushes, const Vec3& centre, dou
     resisted += along * along.transpose();
   }
   resisted /= static_cast<double>(pushes.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(resisted);
-  int count = 0;  // eigenvalues ascend
-  while (count < 6 && solver.eigenvalues()[count] < kFree * kFree) ++count;
+  const SmallSpectrum resistance = spectrum_of(resisted);
+  int count = 0;  // they ascend
+  while (count < 6 && resistance.values[count] < kFree * kFree) ++count;
   Freedom freedom;
-  freedom.screws_ = solver.eigenvectors().leftCols(count);
+  freedom.screws_ = resistance.vectors.leftCols(count);
   freedom.screws_.bottomRows<3>() /= radius;
   return freedom;
 }
@@ -47,8 +46,7 @@ auto Freedom::motion(const Screw& momentum, double mass, const Eigen::Matrix3d& 
   inertias.bottomRightCorner<3, 3>() = inertia;
   if (is_none()) return Screw::Zero();
   // Nodes in one line do not turn about it.
-  const Eigen::MatrixXd between = screws_.transpose() * inertias * screws_;
-  return screws_ * between.completeOrthogonalDecomposition().solve(screws_.transpose() * momentum);
+  return screws_ * least_solution(screws_.transpose() * inertias * screws_, screws_.transpose() * momentum);
 }
 
 template <class Real>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/core/small_system.h"
 #include "cloth/kernels/components.h"
 #include "cloth/kernels/implicit_kernels.h"
 #include "cloth/kernels/node_kernels.h"
@@ -63,7 +64,7 @@ RigidMotion rigid_motion(const Particles<Real>& particles, kernels::Components<c
   const Eigen::Matrix3d inertia = inertia_about(motion.centre, particles);
   if (freedom.is_all()) {
     // Nodes in one line do not turn about it.
-    motion.spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
+    motion.spin = least_solution(inertia, angular_momentum);
     return motion;
   }
   const double mass = total_mass(particles);

@@ -11,9 +11,7 @@ template <class Description>
 Quaternion turned(const Description& description) {
   return description.orientation;
 }
-Quaternion turned(const PlaneDescription& plane) {
-  return Quaternion::FromTwoVectors(Vec3(0, 1, 0), plane.normal);
-}
+Quaternion turned(const PlaneDescription& plane) { return turn_from_y(plane.normal); }
 
 Obstacle made_of(const ObstacleDescription& description, std::size_t index) {
   Obstacle obstacle;

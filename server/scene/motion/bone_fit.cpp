@@ -150,7 +150,7 @@ std::vector<BoneCapsule> fit_capsules(const Skeleton& skeleton, const Skeleton::
       capsule.node = node;
       capsule.length = length;
       capsule.position = unit * (bone.begin + bone.end) / 2;
-      capsule.orientation = Quaternion::FromTwoVectors(Vec3::UnitY(), bone.end - bone.begin);
+      capsule.orientation = turn_from_y(bone.end - bone.begin);
       capsule.radius = std::clamp(rule.share * length, rule.thinnest * height, rule.thickest * height);
       if (hung != skin.end()) {
         if (const auto radius = radius_by_skin(hung->second, bones, bone, rule.quantile))
