@@ -134,6 +134,37 @@ TEST(BodyContact, ABallThatSlidesRollsOnAtFiveSeventhsOfItsSpeed) {
   EXPECT_NEAR(bodies.ball(0).spin.z(), -4 * 5.0 / 7 / 0.2, 1e-5);
 }
 
+TEST(BodyContact, ACapsuleThatRollsGoesOnAsFastAtAnyRate) {
+  for (const double rate : {30, 60, 240}) {
+    ObstacleDescription capsule = flying(CapsuleDescription{0.1, 0.6}, {0, 0.1, 0}, {2, 0, 0}, 0.8);
+    std::get<CapsuleDescription>(capsule.shape).orientation = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX());
+    capsule.body->spin = {0, 0, -2 / 0.1};
+    Bodies bodies({}, {ground(0.8), capsule});
+    bodies.dt = 1 / rate;
+    bodies.run(3);
+    EXPECT_LT((bodies.obstacle(1).body->velocity() - Vec3(2, 0, 0)).norm(), 1e-6) << rate;
+    EXPECT_NEAR(bodies.obstacle(1).pose.position.x(), 6, 1e-5) << rate;
+  }
+}
+
+TEST(BodyContact, ACapsuleRollsDownASlopeByItsWeightAndInertia) {
+  // a = g sin / (1 + I / (m r^2)); of a capsule I is of its cylinder and its two halves of a ball.
+  const double angle = 10 * kPi / 180, radius = 0.1, length = 0.6;
+  const double ball = 4.0 / 3 * kPi * std::pow(radius, 3), cylinder = kPi * radius * radius * length;
+  const double inertia = (0.4 * ball + 0.5 * cylinder) / (ball + cylinder);  // by m r^2
+  const Quaternion turned(Eigen::AngleAxisd(-angle, Vec3::UnitZ()));
+  for (const double rate : {30, 60, 240}) {
+    ObstacleDescription capsule =
+        flying(CapsuleDescription{radius, length}, turned * Vec3(0, radius, 0), {0, 0, 0}, 0.8);
+    std::get<CapsuleDescription>(capsule.shape).orientation = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX());
+    Bodies bodies({}, {ground(0.8, turned * Vec3(0, 1, 0)), capsule});
+    bodies.dt = 1 / rate;
+    bodies.run(2);
+    const double speed = 2 * kGravity * std::sin(angle) / (1 + inertia);
+    EXPECT_NEAR(bodies.obstacle(1).body->velocity().norm(), speed, 1e-3 * speed) << rate;
+  }
+}
+
 // --- Impacts ---
 
 TEST(BodyContact, TwoEqualBallsThatMeetHeadOnShareTheirMomentum) {

@@ -111,8 +111,9 @@ class BodyMeeting {
       const Vec3 normal = b.surface(place).normal - a.surface(place).normal;
       if (!place.allFinite() || !(normal.norm() > 0.1)) continue;
       const Vec3 arm_a = place - a_.position, arm_b = place - b_.position;
-      const Vec3 move = move_of(in_the_middle(a_, arm_a, 1), in_the_middle(b_, arm_b, 1));
-      add(arm_a, arm_b, normal.normalized(), normal.normalized().dot(move));
+      const Vec3 along = normal.normalized();
+      const Vec3 move = move_of(in_the_middle(a_, arm_a, -along, 1), in_the_middle(b_, arm_b, along, 1));
+      add(arm_a, arm_b, along, along.dot(move));
     }
   }
 
@@ -188,14 +189,22 @@ class BodyMeeting {
   }
   /// The arm, which is as it is at `share` of the step, in its middle: the way of a point of what turns is
   /// its velocity there but for the third order of the turn. By those of the step's end a body that rolls
-  /// over an edge would be told, of the second, that it was in before.
-  static Vec3 in_the_middle(const Solid& solid, const Vec3& arm, double share) {
+  /// over an edge would be told, of the second, that it was in before. What is round there touches with the
+  /// point that is next to the other all the while: its centre turns, and not the radius from there.
+  static Vec3 in_the_middle(const Solid& solid, const Vec3& arm, const Vec3& outwards, double share) {
     if (!solid.turns()) return arm;
-    return Eigen::AngleAxisd((0.5 - share) * solid.turn.norm(), solid.turn.stableNormalized()) * arm;
+    const Vec3 radius = rounding(solid.shape) * outwards;
+    const Eigen::AngleAxisd turn((0.5 - share) * solid.turn.norm(), solid.turn.stableNormalized());
+    return turn * Vec3(arm - radius) + radius;
+  }
+  static double rounding(const Shape& shape) {
+    const auto* capsule = std::get_if<Capsule>(&shape);
+    return capsule == nullptr ? 0 : capsule->radius;  // balls do not turn
   }
   /// The arms at `share` of the step; `end` is the gap at its end.
   void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end, double share = 1) {
-    const Vec3 middle_a = in_the_middle(a_, arm_a, share), middle_b = in_the_middle(b_, arm_b, share);
+    const Vec3 middle_a = in_the_middle(a_, arm_a, -normal, share);
+    const Vec3 middle_b = in_the_middle(b_, arm_b, normal, share);
     contacts_.push_back({index_.first, index_.second, middle_a, middle_b, normal,
                          end - normal.dot(move_of(middle_a, middle_b)), std::sqrt(a_.friction * b_.friction),
                          is_firm(a_, b_)});
