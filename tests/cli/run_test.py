@@ -60,6 +60,12 @@ class Outputs(CliTest):
         for value, column in zip(told, ("max_strain", "max_compression")):
             self.assertAlmostEqual(float(value) / (100 * float(rows[-1][column])), 1, delta=0.051, msg=column)
 
+    def test_frames_slower_than_real_time_are_counted(self):
+        slow = self.run_ok("flag", "--frames", 20, "--level", 4, "--set", "/time_step=1e-6")  # a thousandth of what a step takes
+        self.assertIn("20 of 20 frames took longer than real time, 0.001 ms\n", slow.stdout)
+        told = json.loads(self.run_ok("flag", "--frames", 20, "--level", 4, "--set", "/time_step=1e-6", "--json").stdout)
+        self.assertEqual(told["slow_frames"], 20)
+
     def test_several_cloths_have_files_and_rows_of_their_own(self):
         rows = self.stats("flag", "--frames", 1, "--level", 4, "--out", self.folder / "m.csv",
                           "--set", '/cloths/1={"name":"second","levels":{"min":3,"max":3}}')

@@ -57,7 +57,7 @@ void choose_levels(const RunOptions& options, const scene::Scene& scene, Simulat
 /// Makes the steps, each of which is written.
 StepTimes make_steps(Simulation<float>& simulation, int steps, const std::string& scene, RunOutputs& outputs,
                      host::GuardLog& guard) {
-  StepTimes times;
+  StepTimes times{simulation.description().time_step};
   Progress progress(scene, steps);
   for (int step = 1; step <= steps; ++step) {
     const auto start = Clock::now();

@@ -45,6 +45,7 @@ ordered_json cloth_json(const Simulation<float>& simulation, std::size_t index) 
 void StepTimes::add(int frame, double step_seconds) {
   ++steps;
   seconds += step_seconds;
+  if (step_seconds > time_step) ++slow;
   if (step_seconds <= longest) return;
   longest = step_seconds;
   longest_frame = frame;
@@ -55,6 +56,9 @@ std::string RunSummary::text() const {
   append_line(text, "%s: %d frames, %g s simulated in %.2f s, %.3f ms a frame, longest %.3f ms (frame %d)",
               scene.c_str(), times.steps, times.steps * simulation.description().time_step, times.seconds,
               times.mean_ms(), times.longest_ms(), times.longest_frame);
+  if (times.slow > 0)
+    append_line(text, "%d of %d frames took longer than real time, %.3f ms", times.slow, times.steps,
+                1e3 * times.time_step);
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i) {
     const ClothReport report = simulation.report(i);
     const Grid& grid = simulation.cloths()[i].particles().grid();
@@ -80,6 +84,7 @@ ordered_json RunSummary::json() const {
                     {"mean_ms", times.mean_ms()},
                     {"longest_ms", times.longest_ms()},
                     {"longest_frame", times.longest_frame},
+                    {"slow_frames", times.slow},
                     {"cloths", ordered_json::array()},
                     {"guard",
                      {{"redone", counts.redone},
