@@ -1,4 +1,5 @@
 // A pillow of two squares sewn together: what it holds, and that its gas keeps p V.
+#include "cloth/sheet/diagnostics.h"
 #include "cloth/world/simulation.h"
 #include "methods.h"
 
@@ -70,6 +71,24 @@ TEST_P(Boyle, LimpPillowHoldsItsGasAtThePressureOutside) {
   const int substeps = GetParam() == Method::symplectic_euler ? 0 : GetParam() == Method::xpbd ? 100 : 1;
   const double volume = volume_after(pillow(stepping(GetParam(), substeps, 4), 3, {0, 0.05, 0.5}), 2);
   EXPECT_NEAR(volume, 0.05, 0.05 * 2e-4);
+}
+
+// Gas in a bag pushes it as a whole nowhere: thrown up, it falls as everything does.
+class Thrown : public ImplicitMethod {};
+INSTANTIATE_TEST_SUITE_P(Implicit, Thrown, ::testing::ValuesIn(kImplicitMethods), name_of_case);
+
+TEST_P(Thrown, PillowFallsAsEverythingDoes) {
+  for (const int level : {3, 4, 5}) {
+    SimulationDescription scene = pillow(integrator(), level, {50, 0.05, 0.5});
+    scene.cloths[0].velocity = {1, 5, 0};
+    scene.effects = {GravityEffect{}, InflationEffect{50, 0.05, 0.5}};
+    Simulation<float> simulation(scene);
+    for (int step = 0; step < 120; ++step) simulation.step();
+    const Particles<float>& particles = simulation.cloths()[0].particles();
+    const Vec3 velocity = linear_momentum(particles) / total_mass(particles);
+    // Velocities of single precision, to each of which 120 steps add.
+    EXPECT_LT((velocity - Vec3(1, 5 - 2 * 9.81, 0)).norm(), 0.01) << level;
+  }
 }
 
 }  // namespace

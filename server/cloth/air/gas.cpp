@@ -46,13 +46,19 @@ double Gas<Real>::pressure(double volume, double time) const {
 }
 
 template <class Real>
-double Gas<Real>::energy_change(double volume, double change) const {
+double Gas<Real>::energy_change(double volume, double change, double amount) const {
   const double least = kLeastShare * inflation_.volume.value();
   const double above = std::max(volume, least), above_then = std::max(volume + change, least);
   const double logarithm = std::log1p((above_then - above) / above);
   // Below the least volume the pressure stays the same.
   const double rest = (change - (above_then - above)) / least;
-  return kOutside * change - amount_ * (logarithm + rest);
+  return kOutside * change - amount * (logarithm + rest);
+}
+
+template <class Real>
+double Gas<Real>::energy(const VectorField<Real>& position, double time) const {
+  const double full = inflation_.volume.value();
+  return energy_change(full, enclosed_volume(position) - full, amount(time));
 }
 
 template <class Real>
@@ -124,7 +130,7 @@ double Gas<Real>::model_error(kernels::Components<const Real> position,
   const double linear =
       kernels::dot<Real>(kernels::components(std::as_const(gradient_)), change, gradient_.grid());
   const double grown = (linear + 4 * growth(position, change, 0.5) + growth(position, change, 1)) / 6;
-  return energy_change(volume_, grown) + pressure_ * linear - stiffness_ * linear * linear / 2;
+  return energy_change(volume_, grown, amount_) + pressure_ * linear - stiffness_ * linear * linear / 2;
 }
 
 template double enclosed_volume(const VectorField<float>&);

@@ -49,6 +49,9 @@ class Gas {
   /// Above the outside's, Pa, at a volume, m3, and a time, s.
   double pressure(double volume, double time) const;
 
+  /// U of a bag with its nodes there, J, from where it has the effect's volume.
+  double energy(const VectorField<Real>& position, double time) const;
+
   /// Explicit methods: after a substep of h seconds to `time` under all else the nodes are moved by the
   /// pressure that there is after this move, as backward Euler has it for a volume that grows linearly,
   ///     V = V* + h^2 p(V) g . M^-1 g.
@@ -72,8 +75,8 @@ class Gas {
   }
 
  private:
-  /// J, from one volume to another by `change`, m3.
-  double energy_change(double volume, double change) const;
+  /// J, from one volume to another by `change`, m3, of the amount c, J.
+  double energy_change(double volume, double change, double amount) const;
   /// Sets dV/dr of the free nodes, the same at nodes that are one; returns V.
   double differentiate(const Particles<Real>& particles, const Seam<Real>& seam);
   /// How much the volume grows by a change at the rate that it has after a share of it, m3.

@@ -42,6 +42,9 @@ void Effect<Real>::add_damping(const Particles<Real>&, const EffectContext&,
                                const DampingMatrix<Real>&) const {}
 
 template <class Real>
+void Effect<Real>::add_stiffness(const Particles<Real>&, const EffectContext&, Real*) const {}
+
+template <class Real>
 std::vector<std::unique_ptr<Effect<Real>>> make_effects(const std::vector<EffectDescription>& descriptions) {
   std::vector<std::unique_ptr<Effect<Real>>> effects;
   effects.reserve(descriptions.size());

@@ -17,7 +17,6 @@ struct EffectContext {
   const ClothDescription* cloth = nullptr;
   const Wind* wind = nullptr;
   double time = 0;  ///< s
-  double step = 0;  ///< length of the substep, s; given to add_damping alone
   /// Largest damping rate, 1/s, that the substep bears. A force that grows with speed faster than it did when
   /// the substeps were chosen (a fast ball strikes) is held to it. Infinite for methods that bear any.
   double damping_limit = std::numeric_limits<double>::infinity();
@@ -69,6 +68,10 @@ class Effect {
   /// for forces without v.
   virtual void add_damping(const Particles<Real>& particles, const EffectContext& context,
                            const DampingMatrix<Real>& damping) const;
+  /// Adds -dF/dx of every node, N/m, the same in all directions and lumped likewise. Nothing for forces
+  /// without x.
+  virtual void add_stiffness(const Particles<Real>& particles, const EffectContext& context,
+                             Real* stiffness) const;
   /// The largest that the sheet needs to hold what it does, N/m: of a pressure p on a sheet of side L, p L.
   virtual double tension(const Particles<Real>&, const EffectContext&) const { return 0; }
   /// Whether it asks for the air's velocity at the nodes, if that differs from node to node.
@@ -81,6 +84,8 @@ class Effect {
   /// Whether it may do work on the cloth, in this wind. If not it only takes energy, but for what energy()
   /// has.
   virtual bool drives(const EffectContext&) const { return true; }
+  /// Whether it draws nodes to places of its own, by a stiffness.
+  virtual bool holds() const { return false; }
   /// Potential energy of a force that is its gradient, J, 0 at the place of the particles; 0 for others.
   virtual double energy(const Particles<Real>&) const { return 0; }
 };

@@ -140,14 +140,25 @@ double Grabs<Real>::max_damping_rate(const Particles<Real>& particles, const Eff
 template <class Real>
 void Grabs<Real>::add_damping(const Particles<Real>& particles, const EffectContext& context,
                               const DampingMatrix<Real>& damping) const {
+  add_shares(particles, context, total_mass(*context.cloth) * kFrequency, damping.scalar);
+}
+
+template <class Real>
+void Grabs<Real>::add_stiffness(const Particles<Real>& particles, const EffectContext& context,
+                                Real* stiffness) const {
+  add_shares(particles, context, total_mass(*context.cloth) * kFrequency * kFrequency, stiffness);
+}
+
+template <class Real>
+void Grabs<Real>::add_shares(const Particles<Real>& particles, const EffectContext& context, double of_each,
+                             Real* sum) const {
   const ClothDescription& cloth = *context.cloth;
-  const double all = total_mass(cloth) * kFrequency * (1 + kFrequency * context.step);
   for (const Grab& grab : grabs_) {
     // A hand that slips hardly feels where the cloth is.
     const double share = pull_of(grab, particles, context).share;
     for_each_in_patch(
         particles.grid(), cloth.size, grab.at, patch_radius(cloth, kPatch),
-        [&](std::size_t i, double weight) { damping.scalar[i] += static_cast<Real>(share * weight * all); });
+        [&](std::size_t i, double weight) { sum[i] += static_cast<Real>(share * weight * of_each); });
   }
 }
 

@@ -45,9 +45,11 @@ class Grabs final : public Effect<Real> {
   /// Of each pull across its patch, together.
   double tension(const Particles<Real>& particles, const EffectContext& context) const override;
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
-  /// Its stiffness as well, which in a step of h weighs as much as a damping of h times it.
   void add_damping(const Particles<Real>& particles, const EffectContext& context,
                    const DampingMatrix<Real>& damping) const override;
+  void add_stiffness(const Particles<Real>& particles, const EffectContext& context,
+                     Real* stiffness) const override;
+  bool holds() const override { return true; }
 
  private:
   struct Pull {
@@ -55,6 +57,9 @@ class Grabs final : public Effect<Real> {
     double share;  ///< of the spring's: below 1 where the hand slips
   };
   Pull pull_of(const Grab& grab, const Particles<Real>& particles, const EffectContext& context) const;
+  /// Adds to each node its part, by weight, of what all grabs have that do not slip.
+  void add_shares(const Particles<Real>& particles, const EffectContext& context, double of_each,
+                  Real* sum) const;
   /// Of the cloth's mass over a node's own, what the node bears of a grab, at most.
   double largest_share(const Particles<Real>& particles, const ClothDescription& cloth) const;
 

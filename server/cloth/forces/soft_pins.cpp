@@ -163,11 +163,9 @@ double SoftPins<Real>::max_damping_rate(const Particles<Real>& particles, const 
 }
 
 template <class Real>
-void SoftPins<Real>::add_damping(const Particles<Real>&, const EffectContext& context,
-                                 const DampingMatrix<Real>& damping) const {
+void SoftPins<Real>::add_stiffness(const Particles<Real>&, const EffectContext&, Real* stiffness) const {
   for (const Held& held : held_) {
-    for (const Spring& spring : held.springs)
-      damping.scalar[spring.node] += static_cast<Real>(context.step * spring.stiffness);
+    for (const Spring& spring : held.springs) stiffness[spring.node] += static_cast<Real>(spring.stiffness);
   }
 }
 

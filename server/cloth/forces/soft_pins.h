@@ -74,9 +74,9 @@ class SoftPins final : public Effect<Real> {
   double tension(const Particles<Real>& particles, const EffectContext& context) const override;
   /// A spring of frequency w asks no more of an explicit step than a damping rate of w.
   double max_damping_rate(const Particles<Real>& particles, const EffectContext& context) const override;
-  /// Its stiffness, which in a step of h weighs as much as a damping of h times it.
-  void add_damping(const Particles<Real>& particles, const EffectContext& context,
-                   const DampingMatrix<Real>& damping) const override;
+  void add_stiffness(const Particles<Real>& particles, const EffectContext& context,
+                     Real* stiffness) const override;
+  bool holds() const override { return true; }
 
   /// What lasts from step to step (world/state.h).
   template <class Archive>

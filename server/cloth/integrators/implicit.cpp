@@ -211,6 +211,8 @@ void Implicit<Real>::assemble(const Particles<Real>& particles, const Forces<Rea
   } else {
     kernels::assemble_system<Real>(mass, finest.free(), step, iterate, finest.diagonal(), s.b, count);
   }
+  for (const auto& effect : *forces.effects)
+    effect->add_stiffness(particles, forces.context, finest.diagonal());
   s.system.couplings().clear();
   if (!memory_->contacts.empty() || memory_->contacts.hangs()) {
     memory_->contacts.add_to(finest.matrix.blocks, s.system.couplings(), s.b, s.system.bodies(),

@@ -27,7 +27,6 @@ void Implicit<Real>::meet_solids(Step& step, double time, double dt) {
   }
   surroundings_ = {contact, &solids, part};
   forces.context.time = time + part.to * dt;  // forces act as they are at the substep's end
-  forces.context.step = part.seconds;
   forces.carry_pins(particles, forces.context.time);
   hung_ = false;
   if (forces.soft_pins != nullptr && contact != nullptr) {

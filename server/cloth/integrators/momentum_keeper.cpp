@@ -1,12 +1,13 @@
 #include "cloth/integrators/momentum_keeper.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "cloth/contact/constraints/contact_constraints.h"
+#include "cloth/core/small_system.h"
 #include "cloth/integrators/body_energy.h"
 #include "cloth/kernels/node_vector.h"
 #include "cloth/sheet/diagnostics.h"
@@ -29,6 +30,13 @@ Vec3 angular_momentum(const Solid& solid, double to, const Vec3& velocity, const
   Vec3 sum = (place + solid.at(to) - point).cross(velocity / solid.inverse_mass);
   if (solid.yields_turning()) sum += solid.inverse_inertia.inverse() * spin;
   return sum;
+}
+
+/// Of a sheet and the gas that is shut in it, J.
+template <class Real>
+double inner_energy(const Forces<Real>& forces, const VectorField<Real>& position) {
+  const double of_gas = forces.holds_gas() ? forces.bag->gas()->energy(position, forces.context.time) : 0;
+  return forces.sheet->energy(position) + of_gas;
 }
 
 /// The largest share of a change, up to 1, that adds no more than `most` to an energy which it changes by
@@ -64,8 +72,8 @@ auto MomentumKeeper<Real>::motion_of(const Particles<Real>& particles) -> Motion
 
 template <class Real>
 bool MomentumKeeper<Real>::applies(const Particles<Real>& particles, const Forces<Real>& forces) {
-  return (forces.layers == nullptr || !forces.layers->meets_outsiders()) && !forces.holds_gas() &&
-         forces.sheet->torn() == nullptr && !is_held(particles);
+  return (forces.layers == nullptr || !forces.layers->meets_outsiders()) && forces.sheet->torn() == nullptr &&
+         !is_held(particles);
 }
 
 template <class Real>
@@ -82,6 +90,13 @@ bool MomentumKeeper<Real>::touched_by_body(const std::vector<Solid>& solids, con
   if (contact == nullptr) return false;
   return std::any_of(contact->touches().begin(), contact->touches().end(),
                      [&](const Touch& touch) { return solid_of(touch, solids).yields(); });
+}
+
+template <class Real>
+bool MomentumKeeper<Real>::is_drawn(const Member& member) {
+  const Effect<Real>* hung = member.keeper->hung_ ? member.forces->soft_pins : nullptr;
+  return std::any_of(member.forces->effects->begin(), member.forces->effects->end(),
+                     [&](const auto& effect) { return effect.get() != hung && effect->holds(); });
 }
 
 template <class Real>
@@ -161,13 +176,24 @@ Freedom::Screw MomentumKeeper<Real>::response(std::span<const Member> members, c
   Eigen::Matrix<double, 6, 6> system = Eigen::Matrix<double, 6, 6>::Zero();
   for (const Member& member : members) {
     MomentumKeeper& keeper = *member.keeper;
-    system += h * keeper.damping_.matrix(*member.particles, *member.forces, end.centre,
+    system += h * keeper.damping_.matrix(*member.particles, *member.forces, end.centre, h,
                                          keeper.hung_ ? member.forces->soft_pins : nullptr);
   }
   system.topLeftCorner<3, 3>().diagonal().array() += end.mass;
   system.bottomRightCorner<3, 3>() += inertia;
   // Nodes in one line do not turn about it.
-  return system.completeOrthogonalDecomposition().solve(momenta);
+  return least_solution(system, momenta);
+}
+
+template <class Real>
+void MomentumKeeper<Real>::go_on(Particles<Real>& particles, const Vec3& centre, const Vec3& shift,
+                                 const Vec3& turn) {
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix() -
+                                 Eigen::Matrix3d::Identity();
+  const auto position = kernels::components(particles.position);
+  for_each_node(particles.grid(), [&](std::size_t i, int r, int c) {
+    add(position, i, Vec3(shift + turned * (particles.position_at(r, c) - centre)));
+  });
 }
 
 template <class Real>
@@ -175,7 +201,7 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
   const Member& first = members[0];
   const bool alone = members.size() == 1;
   Motion now = first.keeper->now_, before = first.keeper->before_, end = motion_of(*first.particles);
-  bool known = now.known, free = true, by_bdf2 = true;
+  bool known = now.known, free = true, by_bdf2 = true, drawn = false;
   for (const Member& member : members) {
     if (&member != &first) {
       now.join(member.keeper->now_);
@@ -184,6 +210,7 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
     }
     known = known && member.keeper->now_.known;
     free = free && !member.rubs && !member.freedom->is_none() && (alone || member.freedom->is_all());
+    drawn = drawn || is_drawn(member);
     by_bdf2 = by_bdf2 && !touched_by_body(*member.solids, member.contact) &&
               member.keeper->all_by_bdf2(*member.solids, member.second_order);
   }
@@ -191,7 +218,9 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
   const auto restart_all = [&] {
     for (const Member& member : members) member.keeper->restart();
   };
-  if (!free) {
+  // What is drawn has to be moved as well, which would push it into what it touches.
+  const bool touches = !alone || (first.contact != nullptr && !first.contact->touches().empty());
+  if (!free || (drawn && touches)) {
     restart_all();
     return 1;
   }
@@ -209,8 +238,9 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
   const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const Member& member : members) inertia += inertia_about(end.centre, *member.particles);
-  Freedom::Screw motion = response(members, end, inertia, by_bdf2 ? 2 * h / 3 : h,
-                                   (Freedom::Screw() << missing, missing_spin).finished());
+  const double lasts = by_bdf2 ? 2 * h / 3 : h;  // what moves by dv is dv times that farther, by the formula
+  Freedom::Screw motion =
+      response(members, end, inertia, lasts, (Freedom::Screw() << missing, missing_spin).finished());
   const Freedom& freedom = *first.freedom;  // of several: all
   if (!freedom.is_all()) {
     Freedom::Screw momenta;
@@ -227,9 +257,8 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
     const double work = given.work - given.force.dot(given.moved) / now.mass;
     double had = now.kinetic, left = -end.kinetic;
     for (const Member& member : members) {
-      const Sheet<Real>& sheet = *member.forces->sheet;
-      had += sheet.energy(*member.start);
-      left -= sheet.energy(member.particles->position);
+      had += inner_energy(*member.forces, *member.start);
+      left -= inner_energy(*member.forces, member.particles->position);
     }
     left += had + work + given.energy - mean.dot(given.momentum);
     // Of several, whose contact takes energy, none is taken from what they do beside one another.
@@ -244,6 +273,7 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
       add(velocity, i, Vec3(shift + turn.cross(member.particles->position_at(r, c) - end.centre)));
     });
   }
+  if (drawn) go_on(*first.particles, end.centre, lasts * shift, lasts * turn);
   if (!freedom.is_all()) restart_all();  // a push breaks what BDF2 goes on from
   return alone ? take_from_motion(*first.particles, excess, freedom) : 1;
 }

@@ -25,8 +25,13 @@ namespace weft {
 /// Of cloths that are stepped together it is what they have together that is given back: what they push one
 /// another with sums to nothing, and their motion beside one another is left as the solve has found it.
 ///
-/// It leaves alone what rubs on what stands firm, torn sheets, whose pieces do not move as one, and what gas
-/// or cloth that is stepped apart presses on.
+/// A hand or a soft pin draws the harder the farther its cloth is: what such a one draws is moved, too, by as
+/// much as the formula of the substep says. With the velocity alone a cloth that is slung by its corner at 30
+/// Hz would be where it is without that, and be slung up beyond any bound.
+///
+/// It leaves alone what rubs on what stands firm, torn sheets, whose pieces do not move as one, what touches
+/// something while it is drawn, and what cloth that is stepped apart presses on. The gas in a bag pushes it
+/// as a whole nowhere.
 template <class Real>
 class MomentumKeeper {
  public:
@@ -95,6 +100,10 @@ class MomentumKeeper {
   static bool applies(const Particles<Real>& particles, const Forces<Real>& forces);
   /// A solid that yields touches the cloth.
   static bool touched_by_body(const std::vector<Solid>& solids, const Contact<Real>* contact);
+  /// Something draws it to a place, other than to solids that yield.
+  static bool is_drawn(const Member& member);
+  /// Moves all by `shift`, m, and by `turn`, rad, about the centre.
+  static void go_on(Particles<Real>& particles, const Vec3& centre, const Vec3& shift, const Vec3& turn);
   Input input(const Member& member, const Vec3& centre);
   /// The rigid motion that is missing where these momenta are, N s and N m s about the centre: what damps it
   /// in `h`, s, takes its part of them. Without, what wind that hardly turned within a solve has not yet

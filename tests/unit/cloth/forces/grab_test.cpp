@@ -60,6 +60,11 @@ TEST(Grabs, PullThePatchByTheSpringAndNoMoreThanTheyMay) {
       return sum;
     };
     EXPECT_LT((total() - Vec3(0, 0, 12)).norm(), 1e-12);
+    VectorField<double> stiffness(particles.grid());
+    grabs.add_stiffness(particles, context, stiffness.x.row(0));
+    double sum = 0;
+    each_node(particles.grid(), [&](int r, int c) { sum += stiffness.x.at(r, c); });
+    EXPECT_NEAR(sum, 40, 1e-12);
     EXPECT_TRUE(grabs.move(1, {0, 5, 0}));  // 200 N, but it may pull with 100
     EXPECT_LT((total() - Vec3(0, 100, 0)).norm(), 1e-12);
     EXPECT_FALSE(grabs.move(2, {0, 0, 0}));

@@ -66,6 +66,26 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SoftPinsOf,
                            return std::visit([](const auto& d) { return std::string(d.kName); }, test.param);
                          });
 
+// In all it is the region's, and each node has what its force changes by along its way.
+TEST(SoftPinsStiffness, IsWhatTheirForceChangesByAlongAWay) {
+  SimulationDescription scene = softly_pinned(Bdf2Description{}, {.u_max = 1, .stiffness = 20});
+  Simulation<double> simulation(scene);
+  Particles<double> particles = simulation.cloths()[0].particles();
+  const SoftPins<double> pins(scene.cloths[0].pins, 0, particles, nullptr);
+  VectorField<double> before(particles.grid()), after(particles.grid());
+  pins.add_forces(particles, {}, before);
+  Field<double> stiffness(particles.grid());
+  pins.add_stiffness(particles, {}, stiffness.row(0));
+  each_node(particles.grid(), [&](int r, int c) { particles.position.y.at(r, c) += 0.1; });
+  pins.add_forces(particles, {}, after);
+  double sum = 0;
+  each_node(particles.grid(), [&](int r, int c) {
+    EXPECT_NEAR(before.y.at(r, c) - after.y.at(r, c), 0.1 * stiffness.at(r, c), 1e-12);
+    sum += stiffness.at(r, c);
+  });
+  EXPECT_NEAR(sum, 20, 1e-12);
+}
+
 // 0.1 kg hang on 20 N/m: 0.1 * 9.81 / 20 = 49.05 mm below where the edge began. A change of level keeps it.
 TEST_P(SoftPinsOf, HoldAWeightAtForceOverStiffness) {
   SimulationDescription scene = softly_pinned(GetParam(), {.u_max = 1, .stiffness = 20});
