@@ -15,7 +15,7 @@ namespace weft::cli {
 struct StepTimes {
   double time_step = 0;  ///< s of the scene
   int steps = 0;
-  int slow = 0;  ///< those that took longer than the time they make
+  int slow = 0;                     ///< those that took longer than the time they make
   double seconds = 0, longest = 0;  ///< s
   int longest_frame = 0;            ///< that the longest step ended with; 0: no step was made
 
