@@ -20,18 +20,10 @@ namespace {
 constexpr std::size_t kShownBytes = 60;  // of what cannot be read
 /// Before the first attempt to come back, and at most (PROTOCOL.md section 5); jittered down to half.
 constexpr double kFirstWait = 0.25, kLongestWait = 10;  // s
-/// A frame is late, ms beyond what the one before took, and how long a newer one is waited for: a round trip
-/// and a step.
-constexpr int kLateMs = 100;
+/// How long a newer frame is waited for in place of one that is late: a round trip and a step.
 constexpr std::chrono::milliseconds kNewer{200};
 /// What is held waits 5 s; in these there are fewer attempts.
 constexpr std::size_t kMostSeats = 8;
-
-/// This side's clock as FrameStamp::server_ms is the server's.
-std::uint32_t now_ms() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
-}
 
 /// A server that does not keep to the protocol may leave any of them out.
 std::string member_text(const json& message, const char* name) {
@@ -128,17 +120,13 @@ std::optional<SceneClient::Received> SceneClient::next_frame(TimePoint until) {
   Received received = take_newest();
   const TimePoint end = std::min(until, std::chrono::steady_clock::now() + kNewer);
   try {
-    while (client_ && late(received.frame.stamp) && std::chrono::steady_clock::now() < end && read_frame(end))
+    while (client_ && arrivals_.late(received.frame.stamp.server_ms) &&
+           std::chrono::steady_clock::now() < end && read_frame(end))
       received = take_newest();
   } catch (const ConnectionError&) {  // this is the last one
   }
-  if (client_) usual_ms_ = now_ms() - received.frame.stamp.server_ms;
+  if (client_) arrivals_.taken(received.frame.stamp.server_ms);
   return received;
-}
-
-bool SceneClient::late(const protocol::FrameStamp& stamp) const {
-  // Both clocks wrap: the difference is the shorter way round.
-  return usual_ms_ && static_cast<std::int32_t>(now_ms() - stamp.server_ms - *usual_ms_) > kLateMs;
 }
 
 bool SceneClient::read_frame(TimePoint until) {
@@ -175,7 +163,7 @@ void SceneClient::connect() {
   scene_ = nullptr;
   client_ = std::make_unique<Client>(url_, options_.limit, options_.security);
   newest_.clear();
-  usual_ms_.reset();
+  arrivals_ = {};
   capabilities_.clear();
   acks_ = false;
   joining_.reset();

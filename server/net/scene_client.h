@@ -92,6 +92,21 @@ class SceneClient {
     std::string scene, token;
   };
 
+  /// Tells frames that have waited because this side stood still from those whose way is long, or which it
+  /// takes seldom.
+  class Arrivals {
+   public:
+    /// Whether a frame sent at `server_ms` is taken later than the one before it was, by more than 0.1 s, or
+    /// of a side that takes them seldom by twice its pace.
+    bool late(std::uint32_t server_ms) const;
+    void taken(std::uint32_t server_ms);
+
+   private:
+    std::optional<std::uint32_t> last_;  ///< when it was taken, ms, modulo 2^32
+    std::uint32_t usual_ = 0;            ///< from its sending to that, both clocks' difference included, ms
+    std::uint32_t pace_ = 0;             ///< from the one before to it, ms
+  };
+
   void connect();
   /// Connects again as it was, in the times between attempts; whether that was done by `until`.
   bool come_back(TimePoint until);
@@ -105,9 +120,6 @@ class SceneClient {
   bool read_frame(TimePoint until);
   /// newest_ decoded and acknowledged.
   Received take_newest();
-  /// Whether the frame has waited for this side to read: it took longer than the one before, by more than 0.1
-  /// s.
-  bool late(const protocol::FrameStamp& stamp) const;
   // Both lose a connection that ends meanwhile, and throw.
   std::optional<Client::Message> receive(TimePoint until);
   void send(const std::string& text);
@@ -128,8 +140,7 @@ class SceneClient {
   std::int64_t asked_ = 0;            ///< id of the command whose answer is waited for; 0: none
   nlohmann::json answer_;             ///< null until it has come
   std::vector<std::uint8_t> newest_;  ///< empty: no frame waits
-  /// From its sending to its being taken, of the frame taken last, ms, both clocks' difference included.
-  std::optional<std::uint32_t> usual_ms_;
+  Arrivals arrivals_;
 
   std::int64_t hello_ = 0;  ///< its id, until it is answered
   std::vector<std::string> capabilities_;

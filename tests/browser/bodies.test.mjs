@@ -4,7 +4,7 @@ import {before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {setTimeout as sleep} from 'node:timers/promises';
 import {openByHand} from './hands.mjs';
-import {openScene, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
+import {openScene, pause, pauseAfter, skip, startServer, stats, until} from './harness.mjs';
 
 // By their places in scenes/bodies.json.
 const kBox = 1, kCapsule = 2, kShelf = 3, kHidden = 4;
@@ -159,10 +159,10 @@ test('a finger drags a body on a narrow page, whose controls fit', async () => {
   await touch('touchEnd');
   await until(phone, ([index, height]) => weft.stats.obstacles[index][1] < height + 0.1, [kCapsule, from[1]]);
   assert.deepEqual((await stats(phone)).eye, eye);
-  await skip(server, 'bodies', 15);
-  // All viewers see it.
-  await rest(kCapsule, phone);
-  await rest(kCapsule);
+  // All viewers see it, and where it is while it rolls.
+  await pause(page);
+  await until(phone, (f) => weft.stats.lastFrame.f === f && weft.stats.settled, (await stats(page)).lastFrame.f);
+  assert.deepEqual((await stats(phone)).obstacles[kCapsule], await placeOf(kCapsule));
   const apart = (await placeOf(kCapsule)).map((value, axis) => Math.abs(value - from[axis]));
   assert.ok(Math.max(...apart) > 0.05, 'it was dragged aside, or fell over');
   const fold = await phone.evaluate(() => {

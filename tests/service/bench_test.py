@@ -55,7 +55,7 @@ class Bench(unittest.TestCase):
         out, _ = self.bench(server, "--viewers", 5, "--seconds", 0.5, code=1)
         told = json.loads(self.file.read_text())
         self.assertEqual((told["joined"], told["failures"]), (2, 3))
-        self.assertRegex(out, r"first failure +refused: 503 the scene has no place for another viewer")
+        self.assertRegex(out, r"first failure +the server refused: 503 the scene has no place for another viewer")
 
     def test_tls_is_measured_beside_no_tls(self):
         certificate, key = make_certificate(self.file.parent, "one")
