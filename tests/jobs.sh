@@ -32,7 +32,7 @@ sanitized() {
   shift 2
   configure "$preset" -DWEFT_BUILD_PAGE=OFF &&
     cmake --build --preset "$preset" --parallel "$(nproc)" --target "${targets[@]}" &&
-    ctest --preset "$preset" --parallel "$(($(nproc) + 2))" -E "$not_sanitized" "$@"
+    ctest --preset "$preset" --parallel "$(($(nproc) + 1))" -E "$not_sanitized" "$@"
 }
 
 # What no sanitizer job builds.
