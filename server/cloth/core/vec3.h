@@ -15,7 +15,7 @@ inline Vec3 standard_gravity() { return {0.0, -9.81, 0.0}; }
 inline Vec3 across(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * unit; }
 
 /// The least turn that takes +y to where `direction` shows, which has any length above 0; where that is -y,
-/// about +x. In place of Quaternion::FromTwoVectors, whose decomposition takes a compiler 10 s a file.
+/// about +z. In place of Quaternion::FromTwoVectors, whose decomposition takes a compiler 10 s a file.
 Quaternion turn_from_y(const Vec3& direction);
 
 }  // namespace weft

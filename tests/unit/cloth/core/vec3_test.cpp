@@ -19,5 +19,10 @@ TEST(TurnFromY, TakesYToTheDirectionByTheLeastTurn) {
   }
 }
 
+TEST(TurnFromY, TurnsAboutZWhereTheDirectionIsOpposite) {
+  const Quaternion turn = turn_from_y({0, -5, 0});
+  EXPECT_TRUE(turn.coeffs() == Quaternion(0, 0, 0, 1).coeffs());
+}
+
 }  // namespace
 }  // namespace weft
