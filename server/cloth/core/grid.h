@@ -6,7 +6,7 @@
 
 namespace weft {
 
-/// Scalars a row is padded to: 16 floats fill one AVX-512 register and one cache line.
+/// Scalars a row is padded to: 16 floats fill one cache line and two AVX2 registers.
 inline constexpr int kRowAlign = 16;
 /// Padding that every row has at least: a row loop may read the second neighbour of the row's last node.
 inline constexpr int kRowPadding = 2;
