@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-/// Rounding and what a solve leaves, as a part of all the energy there is.
+/// Rounding and what a solve leaves, as a part of all the energy there may be.
 constexpr double kLeft = 0.05;
 
 double kinetic_energy_of(const std::vector<Solid>& solids) {
@@ -35,13 +35,16 @@ double kinetic_energy(const Solid& solid) {
 
 template <class Real>
 void BodyEnergy<Real>::begin(const Particles<Real>& particles, const Forces<Real>& forces,
-                             const std::vector<Solid>& solids) {
+                             const std::vector<Solid>& solids, double dt) {
   applies_ = !forces.rescued && forces.pins == nullptr && forces.layers == nullptr && !forces.holds_gas() &&
              std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.yields(); }) &&
              std::none_of(solids.begin(), solids.end(), drives);
   if (!applies_) return;
   bodies_ = kinetic_energy_of(solids);
   cloth_ = kinetic_energy(particles) + forces.sheet->energy(particles.position);
+  double mass = total_mass(particles);
+  for (const Solid& solid : solids) mass += solid.yields() ? 1 / solid.inverse_mass : 0.0;
+  pressed_ = mass * (standard_gravity() * dt).squaredNorm() / 2;
   start_ = particles.position;
 }
 
@@ -59,7 +62,7 @@ void BodyEnergy<Real>::judge(const Particles<Real>& particles, const Forces<Real
   double work = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) work += std::abs(at(force, i).dot(at(to, i) - at(from, i)));
   const double lost = bodies_ - kinetic_energy_of(solids);
-  const double could_give = std::max(0.0, lost + work + kLeft * (cloth_ + bodies_));
+  const double could_give = std::max(0.0, lost + work + kLeft * (cloth_ + bodies_ + pressed_));
   if (gained <= could_give) return;
   report.gained = gained;
   report.could_give = could_give;

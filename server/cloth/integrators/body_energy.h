@@ -16,8 +16,9 @@ double kinetic_energy(const Solid& solid);
 template <class Real>
 class BodyEnergy {
  public:
-  /// As a step begins; `solids` as they fly in it.
-  void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids);
+  /// As a step of dt seconds begins; `solids` as they fly in it.
+  void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
+             double dt);
   /// As it ends: reports if the cloth has gained more than the bodies and its effects, hands among them,
   /// could give (AdvanceReport::gained). Never if something else may do work on it: pins, other solids that
   /// move, other cloths, gas.
@@ -27,6 +28,9 @@ class BodyEnergy {
  private:
   bool applies_ = false;
   double cloth_ = 0, bodies_ = 0;  ///< as the step begins, J
+  /// What gravity gives in the step to all that falls, J: what presses cloth may hold as much, by the springs
+  /// that keep things apart.
+  double pressed_ = 0;
   VectorField<Real> start_, force_;
 };
 

@@ -133,7 +133,7 @@ void Implicit<Real>::begin_step(Step& step, double dt) {
     for (Real* component : {correction.x, correction.y, correction.z}) component[i] *= free[i];
   }
   state_->sound = true;
-  body_energy_.begin(particles, forces, *step.solids);
+  body_energy_.begin(particles, forces, *step.solids, dt);
   memory_->ledger.begin_step(particles, forces, memory_->formula.lead() != nullptr ? h / 2 : 0);
   step.unpushed = freedom_of(particles);
   step.freedom = step.unpushed;
