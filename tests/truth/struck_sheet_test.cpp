@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "cloth/world/simulation.h"
 #include "draws.h"
 #include "fixtures.h"
 #include "methods.h"

@@ -3,6 +3,12 @@
 
 namespace weft {
 
+/// What a contact gives its a, N s; b gets the opposite.
+struct BodyImpulse {
+  double along = 0;       ///< along the normal
+  Vec3 rubbing{0, 0, 0};  ///< across it
+};
+
 /// Where two solids touch, or may in the step.
 struct BodyContact {
   int a = 0, b = 0;      ///< the solids, indices
@@ -13,6 +19,7 @@ struct BodyContact {
   double friction = 0;   ///< Coulomb's coefficient of the two
   bool firm = false;     ///< one of them never moves: this is kept where not all can be
   double borne = 0;      ///< what has pushed them apart in the step before: friction has it, too, N s
+  BodyImpulse start{};   ///< with which resolve begins to look
 };
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace weft {
 namespace {
@@ -22,9 +23,9 @@ double inverse_mass_at(const MovingBody& body, const Vec3& arm, const Vec3& dire
 struct Row {
   const BodyContact* contact;
   MovingBody *a, *b;
-  double inverse_mass;      ///< along the normal, 1/kg
-  double impulse = 0;       ///< along the normal, N s
-  Vec3 friction{0, 0, 0};   ///< along the surface, N s
+  double inverse_mass;  ///< along the normal, 1/kg
+  BodyImpulse impulse{};
+  Vec3 before{0, 0, 0};     ///< velocity() without impulses, m/s
   double displacement = 0;  ///< along the normal, kg m
 
   double inverse_mass_along(const Vec3& direction) const {
@@ -39,6 +40,13 @@ struct Row {
     a->spin += a->inverse_inertia * contact->arm_a.cross(impulse_on_a);
     b->velocity -= b->inverse_mass * impulse_on_a;
     b->spin -= b->inverse_inertia * contact->arm_b.cross(impulse_on_a);
+  }
+  /// With what the contact starts with, as far as friction can have it.
+  void start() {
+    impulse = contact->start;
+    const double most = contact->friction * (contact->borne + impulse.along);
+    if (const double force = impulse.rubbing.norm(); force > most) impulse.rubbing *= most / force;
+    push(impulse.along * contact->normal + impulse.rubbing);
   }
   /// The same without motion.
   double shift_along_normal() const {
@@ -58,8 +66,8 @@ double stop_approach(Row& row, double dt) {
   const Vec3& normal = row.contact->normal;
   const double allowed = std::max(row.contact->gap, 0.0) / dt;
   const double wanted = -(normal.dot(row.velocity()) + allowed) / row.inverse_mass;
-  const double impulse = std::max(0.0, row.impulse + wanted), change = impulse - row.impulse;
-  row.impulse = impulse;
+  const double impulse = std::max(0.0, row.impulse.along + wanted), change = impulse - row.impulse.along;
+  row.impulse.along = impulse;
   row.push(change * normal);
   return std::abs(change) * row.inverse_mass;
 }
@@ -68,14 +76,14 @@ double stop_approach(Row& row, double dt) {
 double rub(Row& row) {
   const BodyContact& contact = *row.contact;
   const Vec3 velocity = row.velocity(), slip = velocity - velocity.dot(contact.normal) * contact.normal;
-  const double speed = slip.norm(), most = contact.friction * (contact.borne + row.impulse);
-  if (speed == 0 && row.friction.squaredNorm() <= most * most) return 0;
-  const Vec3 direction = speed > 0 ? Vec3(slip / speed) : row.friction.normalized();
+  const double speed = slip.norm(), most = contact.friction * (contact.borne + row.impulse.along);
+  if (speed == 0 && row.impulse.rubbing.squaredNorm() <= most * most) return 0;
+  const Vec3 direction = speed > 0 ? Vec3(slip / speed) : row.impulse.rubbing.normalized();
   const double inverse_mass = row.inverse_mass_along(direction);
-  Vec3 friction = row.friction - speed / inverse_mass * direction;
+  Vec3 friction = row.impulse.rubbing - speed / inverse_mass * direction;
   if (const double force = friction.norm(); force > most) friction *= most / force;
-  const Vec3 change = friction - row.friction;
-  row.friction = friction;
+  const Vec3 change = friction - row.impulse.rubbing;
+  row.impulse.rubbing = friction;
   row.push(change);
   return change.norm() * inverse_mass;
 }
@@ -94,15 +102,32 @@ double part(Row& row, double dt) {
   return std::abs(change) * row.inverse_mass;
 }
 
+/// What contacts have given as seen from each one's other side, J: the impulse times the mean of the
+/// velocities before and after.
+double energy_given(const std::vector<Row>& rows) {
+  double given = 0;
+  for (const Row& row : rows) {
+    const Vec3 impulse = row.impulse.along * row.contact->normal + row.impulse.rubbing;
+    given += impulse.dot(row.before + row.velocity()) / 2;
+  }
+  return given;
+}
+
 /// `change_by`(row) over all rows until it changes by `converged` at most; where that is not to be had, over
-/// those from `firm` on then, which nothing gives way to.
+/// those from `firm` on then, which nothing gives way to. To and fro: what one end of a pile bears is so
+/// passed to the other end in one sweep, whichever of the two comes first.
 template <class Change>
 void sweep(std::vector<Row>& rows, std::vector<Row>::iterator firm, double converged,
            const Change& change_by) {
   for (const auto first : {rows.begin(), firm}) {
     for (int i = 0; i < kSweeps; ++i) {
       double change = 0;
-      for (auto row = first; row != rows.end(); ++row) change = std::max(change, change_by(*row));
+      const auto look = [&](Row& row) { change = std::max(change, change_by(row)); };
+      if (i % 2 == 0) {
+        std::for_each(first, rows.end(), look);
+      } else {
+        std::for_each(rows.rbegin(), std::reverse_iterator(first), look);
+      }
       if (!(change > converged)) return;
     }
   }
@@ -110,7 +135,8 @@ void sweep(std::vector<Row>& rows, std::vector<Row>::iterator firm, double conve
 
 }  // namespace
 
-void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies, double dt) {
+std::vector<BodyImpulse> resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies,
+                                 double dt) {
   std::vector<Row> rows;
   rows.reserve(contacts.size());
   for (const BodyContact& contact : contacts) {
@@ -120,11 +146,25 @@ void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& 
     if (row.inverse_mass > 0) rows.push_back(row);
   }
   const auto firm = std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.contact->firm; });
-  sweep(rows, firm, kConverged, [&](Row& row) {
-    const double rubbed = row.contact->friction > 0 ? rub(row) : 0;
-    return std::max(rubbed, stop_approach(row, dt));
-  });
+  const auto stop_and_rub = [&] {
+    sweep(rows, firm, kConverged, [&](Row& row) {
+      const double rubbed = row.contact->friction > 0 ? rub(row) : 0;
+      return std::max(rubbed, stop_approach(row, dt));
+    });
+  };
+  const std::vector<MovingBody> before = bodies;
+  for (Row& row : rows) row.before = row.velocity();
+  for (Row& row : rows) row.start();
+  stop_and_rub();
+  if (energy_given(rows) > 0) {
+    bodies = before;
+    for (Row& row : rows) row.impulse = {};
+    stop_and_rub();
+  }
   sweep(rows, firm, kConverged * dt, [&](Row& row) { return part(row, dt); });
+  std::vector<BodyImpulse> impulses(contacts.size());
+  for (const Row& row : rows) impulses[static_cast<std::size_t>(row.contact - contacts.data())] = row.impulse;
+  return impulses;
 }
 
 }  // namespace weft

@@ -23,8 +23,14 @@ struct MovingBody {
 /// overlaps is shifted apart by a share of it, which gives no speed. Each impulse takes energy: of two bodies
 /// that nothing else moves there is never more.
 ///
+/// They begin with what contacts are told to start with. Where there were too few sweeps to take that back,
+/// so that contact would give energy, they begin again from nothing.
+///
 /// Where there is no way that all contacts allow, as of a body between the ground and a press that leaves
 /// less room than it has, the firm ones, which come last, are kept and the others overlap.
-void resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies, double dt);
+///
+/// Returns the impulses, contact by contact.
+std::vector<BodyImpulse> resolve(const std::vector<BodyContact>& contacts, std::vector<MovingBody>& bodies,
+                                 double dt);
 
 }  // namespace weft

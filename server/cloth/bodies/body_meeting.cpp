@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "cloth/bodies/contact_manifold.h"
 #include "cloth/shapes/triangle_mesh.h"
@@ -16,17 +17,21 @@ using Geometry = BodyGeometry::Geometry;
 
 /// Of the margin: so far back on its way a pinned node is told which face it comes to.
 constexpr double kSeenFrom = 0.03;
+/// Of the margin: so far within a place, or beside it, the surface is looked for that it has to do with.
+constexpr double kInwards = 0.2;
 
 const TriangleMesh* surface_of(const Solid& solid) {
   const auto* mesh = std::get_if<Mesh>(&solid.shape);
   return mesh == nullptr ? nullptr : mesh->surface;
 }
 
-/// How far any of its points moves in the step at most, m.
-double most_move(const Solid& solid) {
-  const double way = (solid.position - solid.start).norm();
-  return solid.turns() ? way + solid.turn.norm() * outer_radius(solid.shape) : way;
+/// How far any of its points moves in the step by its turn at most, m.
+double most_turned(const Solid& solid) {
+  return solid.turns() ? solid.turn.norm() * outer_radius(solid.shape) : 0;
 }
+
+/// The same by all.
+double most_move(const Solid& solid) { return (solid.position - solid.start).norm() + most_turned(solid); }
 
 /// Two solids while their contacts are looked for.
 class BodyMeeting {
@@ -59,7 +64,9 @@ class BodyMeeting {
   /// Where it ends says nothing of where it came from. What is next to a node that has come in by a little at
   /// a body's edge may be another face than the one it came through.
   bool looked_at_on_its_way() const {
-    return is_pinned_node(b_) || (!is_half_space(b_) && most_move(a_) + most_move(b_) > margin_);
+    const Vec3 way = (a_.position - a_.start) - (b_.position - b_.start);
+    return is_pinned_node(b_) ||
+           (!is_half_space(b_) && way.norm() + most_turned(a_) + most_turned(b_) > margin_);
   }
 
   /// Where the corners of one meet the other on their ways; false if none does.
@@ -89,11 +96,12 @@ class BodyMeeting {
     fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
     fcl::collide(of_b.get(), end_of(b_), of_a.get(), end_of(a_), request, result);
-    if (!result.isCollision()) return;
-    const fcl::Contactd& deepest = result.getContact(0);
-    if (!(deepest.normal.squaredNorm() > 0.5)) return;  // of two shapes that touch by rounding it has none
-    const Manifold manifold =
-        manifold_of(a_.placed(1), b_.placed(1), deepest.normal.normalized(), deepest.pos, margin_);
+    const PlacedShape a = a_.placed(1), b = b_.placed(1);
+    // Of two shapes that touch by rounding it has no normal.
+    const bool overlap = result.isCollision() && result.getContact(0).normal.squaredNorm() > 0.5;
+    const Manifold manifold = overlap ? manifold_of(a, b, result.getContact(0).normal.normalized(),
+                                                    result.getContact(0).pos, margin_)
+                                      : manifold_before(a, b, margin_);
     for (const Manifold::Point& point : manifold.points) {
       add(point.place - a_.position, point.place - b_.position, manifold.normal, point.gap);
     }
@@ -108,13 +116,28 @@ class BodyMeeting {
     const PlacedShape a = a_.placed(1), b = b_.placed(1);
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
       const Vec3 place = result.getContact(i).pos;
-      const Vec3 normal = b.surface(place).normal - a.surface(place).normal;
-      if (!place.allFinite() || !(normal.norm() > 0.1)) continue;
+      if (!place.allFinite()) continue;
+      const std::optional<Vec3> along = normal_of_crossing(a, b, place);
+      if (!along) continue;
       const Vec3 arm_a = place - a_.position, arm_b = place - b_.position;
-      const Vec3 along = normal.normalized();
-      const Vec3 move = move_of(in_the_middle(a_, arm_a, -along, 1), in_the_middle(b_, arm_b, along, 1));
-      add(arm_a, arm_b, along, along.dot(move));
+      const Vec3 move = move_of(in_the_middle(a_, arm_a, -*along, 1), in_the_middle(b_, arm_b, *along, 1));
+      add(arm_a, arm_b, *along, along->dot(move));
     }
+  }
+
+  /// From b to a, where their surfaces cross. What of them is next to that place may be the face beside an
+  /// edge that has come in by a little. A little way out of one along its normal the other's surface looks
+  /// against that, if it is the face or the edge that is met; none if it does so for neither.
+  std::optional<Vec3> normal_of_crossing(const PlacedShape& a, const PlacedShape& b,
+                                         const Vec3& place) const {
+    constexpr double kAgainst = 0.1;
+    const double beside = kInwards * margin_;
+    const Vec3 out_of_a = a.surface(place).normal, out_of_b = b.surface(place).normal;
+    const Vec3 by_b = b.surface(place + beside * out_of_a).normal;
+    const Vec3 by_a = -a.surface(place - beside * out_of_b).normal;
+    const double against_a = -out_of_a.dot(by_b), against_b = out_of_b.dot(by_a);
+    if (!(std::max(against_a, against_b) > kAgainst)) return std::nullopt;
+    return against_a > against_b ? by_b : by_a;
   }
 
   /// A pinned node has none: it counts by what it meets.
@@ -131,7 +154,6 @@ class BodyMeeting {
   /// same way as it does. It came from where its own solid is, so what of the surface is next to a place a
   /// little within that is the one it met.
   Surface surface_at(const PlacedShape& shape, const Vec3& place, const Vec3& outwards) const {
-    constexpr double kInwards = 0.2;
     Surface nearest = shape.surface(place);
     if (nearest.normal.dot(outwards) <= 0) return nearest;
     const Vec3 back = kInwards * margin_ * outwards;
@@ -205,9 +227,16 @@ class BodyMeeting {
   void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end, double share = 1) {
     const Vec3 middle_a = in_the_middle(a_, arm_a, -normal, share);
     const Vec3 middle_b = in_the_middle(b_, arm_b, normal, share);
-    contacts_.push_back({index_.first, index_.second, middle_a, middle_b, normal,
-                         end - normal.dot(move_of(middle_a, middle_b)), std::sqrt(a_.friction * b_.friction),
-                         is_firm(a_, b_)});
+    contacts_.push_back({index_.first,
+                         index_.second,
+                         middle_a,
+                         middle_b,
+                         normal,
+                         end - normal.dot(move_of(middle_a, middle_b)),
+                         std::sqrt(a_.friction * b_.friction),
+                         is_firm(a_, b_),
+                         0,
+                         {}});
   }
 
   std::pair<int, int> index_;

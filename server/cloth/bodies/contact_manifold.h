@@ -15,12 +15,17 @@ struct Manifold {
   std::vector<Point> points;
 };
 
-/// Where they touch, if they do so along about `normal`, from b to a, and at `deepest`: the face of one, if
-/// it has one there, cuts out what of the other's face or edge lies over it, which holds two boxes on each
-/// other by their corners; otherwise it is that point. Leaves out what is farther apart than `margin`, m.
-/// (Clipping of the incident face by the reference face's sides: D. Gregorius, Robust Contact Creation for
-/// Physics Simulations, GDC 2015.)
-Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& normal, const Vec3& deepest,
+/// Where they touch, if they do so along the unit normal `about`, from b to a, and at `deepest`, or along
+/// that of a face along which they overlap less (least_overlap): the face of one, if it has one there, cuts
+/// out what of the other's face or edge lies over it, which holds two boxes on each other by their corners;
+/// otherwise it is that point. Leaves out what is farther apart than `margin`, m. (Clipping of the incident
+/// face by the reference face's sides: D. Gregorius, Robust Contact Creation for Physics Simulations, GDC
+/// 2015.)
+Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& about, const Vec3& deepest,
                      double margin);
+
+/// The same before they overlap, along the normal of the face that parts them most: only where the face of
+/// one has something of the other over it.
+Manifold manifold_before(const PlacedShape& a, const PlacedShape& b, double margin);
 
 }  // namespace weft

@@ -67,6 +67,10 @@ MassProperties Box::mass_properties() const {
   return {{0, 0, 0}, inertia_of(Eigen::Matrix3d(moment.asDiagonal()))};
 }
 
+std::vector<Vec3> Box::face_normals() const {
+  return {Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ()};
+}
+
 std::vector<Corner> Box::corners() const {
   std::vector<Corner> all;
   for (const double x : {-1, 1}) {

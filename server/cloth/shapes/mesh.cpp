@@ -30,6 +30,13 @@ double Mesh::outer_radius() const { return surface->outer_radius(); }
 
 MassProperties Mesh::mass_properties() const { return weft::mass_properties(surface->list()); }
 
+std::vector<Vec3> Mesh::face_normals() const {
+  std::vector<Vec3> normals;
+  normals.reserve(surface->triangles().size());
+  for (const Triangle& triangle : surface->triangles()) normals.push_back(triangle.normal);
+  return normals;
+}
+
 std::vector<Corner> Mesh::corners() const {
   std::vector<Corner> all;
   const TriangleList& list = surface->list();

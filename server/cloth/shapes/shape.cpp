@@ -64,6 +64,10 @@ std::vector<Corner> corners_of(const Shape& shape) {
   return std::visit([](const auto& s) { return s.corners(); }, shape);
 }
 
+std::vector<Vec3> face_normals_of(const Shape& shape) {
+  return std::visit([](const auto& s) { return s.face_normals(); }, shape);
+}
+
 bool is_convex(const Shape& shape) {
   return std::visit([](const auto& s) { return s.is_convex(); }, shape);
 }

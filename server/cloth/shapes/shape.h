@@ -46,6 +46,7 @@ struct Sphere {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
+  std::vector<Vec3> face_normals() const;
   bool is_convex() const;
 };
 /// All below y = 0 of its own frame.
@@ -59,6 +60,7 @@ struct HalfSpace {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
+  std::vector<Vec3> face_normals() const;
   bool is_convex() const;
 };
 /// Centred, edges along its own axes.
@@ -74,6 +76,7 @@ struct Box {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
+  std::vector<Vec3> face_normals() const;
   bool is_convex() const;
 };
 /// All within `radius` of the middle stretch of its own y axis; a limb.
@@ -90,6 +93,7 @@ struct Capsule {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
+  std::vector<Vec3> face_normals() const;
   bool is_convex() const;
 };
 /// Within a closed surface of triangles. It belongs to someone else, who keeps it: shapes are copied in hot
@@ -106,6 +110,7 @@ struct Mesh {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
+  std::vector<Vec3> face_normals() const;
   bool is_convex() const;
 };
 using Shape = std::variant<Sphere, HalfSpace, Box, Capsule, Mesh>;
@@ -141,6 +146,8 @@ double outer_radius(const Shape& shape);
 /// The shape's corners, of which it is the convex hull unless it is a mesh that is not convex. A half-space
 /// has none.
 std::vector<Corner> corners_of(const Shape& shape);
+/// Outward unit normals of its flat faces in its own frame; of a mesh one of each triangle.
+std::vector<Vec3> face_normals_of(const Shape& shape);
 /// Neither a half-space nor a mesh that is not known to be convex.
 bool is_convex(const Shape& shape);
 

@@ -34,6 +34,8 @@ class TriangleMesh {
 
   /// The surface as it is taken: without what was left out, counterclockwise as seen from outside.
   const TriangleList& list() const { return list_; }
+  /// Its triangles, in the list's order.
+  const std::vector<Triangle>& triangles() const { return triangles_; }
 
   struct Nearest {
     double distance = 0;   ///< to the surface, m; negative inside

@@ -159,11 +159,19 @@ bool Colliders::may_meet() const {
 }
 
 void Colliders::meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
-                     const std::vector<BodyTouch>& pushed) {
+                     const std::vector<BodyTouch>* pushed) {
   constexpr int kMostRounds = 4;
   constexpr double kStray = 1e-4;  // m
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!(bend_ways(collision, dt, pins, round == 0 ? pushed : std::vector<BodyTouch>{}) > kStray)) return;
+    gather_solids();
+    std::vector<BodyContact> contacts = collision.find(solids_, dt, pins);
+    const bool begins = round == 0 && pushed == nullptr;
+    if (begins) impulses_.start(contacts, solids_, dt);
+    if (round == 0 && pushed != nullptr) bear(*pushed, contacts);
+    std::vector<BodyImpulse> impulses;
+    const double stray = bend_ways(contacts, dt, pins, impulses);
+    if (begins) impulses_.keep(contacts, impulses, solids_, dt);
+    if (!(stray > kStray)) return;
   }
 }
 
@@ -175,12 +183,9 @@ std::vector<BodyTouch> Colliders::touches(const BodyCollision& collision) const 
   return touches;
 }
 
-double Colliders::bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
-                            const std::vector<BodyTouch>& pushed) {
-  gather_solids();
-  std::vector<BodyContact> contacts = collision.find(solids_, dt, pins);
+double Colliders::bend_ways(const std::vector<BodyContact>& contacts, double dt,
+                            const std::vector<PinnedNode>& pins, std::vector<BodyImpulse>& impulses) {
   if (contacts.empty()) return 0;
-  bear(pushed, contacts);
   std::vector<MovingBody> bodies;
   for (const Solid& solid : solids_) {
     bodies.push_back({solid.inverse_mass, solid.inverse_inertia, solid.velocity, solid.spin});
@@ -192,7 +197,7 @@ double Colliders::bend_ways(BodyCollision& collision, double dt, const std::vect
     bodies[i].inverse_inertia.diagonal().setConstant(2.5 / (ball.mass * ball.radius * ball.radius));
     bodies[i].spin = ball.spin;
   }
-  resolve(contacts, bodies, dt);
+  impulses = resolve(contacts, bodies, dt);
   for (std::size_t i = 0; i < balls_.size(); ++i) {
     Ball& ball = balls_[i];
     if (!ball.awake()) continue;

@@ -9,6 +9,7 @@
 #include "cloth/bodies/body_hand.h"
 #include "cloth/bodies/body_touch.h"
 #include "cloth/bodies/collider_description.h"
+#include "cloth/bodies/kept_impulses.h"
 #include "cloth/bodies/rigid_body.h"
 #include "cloth/shapes/solid.h"
 #include "cloth/sleep/islands.h"
@@ -144,9 +145,10 @@ class Colliders {
   /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
   /// Again where a hit turned one by so much that what was told of its points by the way that it began with
   /// is off by more than 0.1 mm. `pins` hold up what they meet.
-  /// Friction also has what a step has `pushed` them apart by.
+  /// `pushed`, once the step has ended: what it has pushed them apart by, which friction also has. Without,
+  /// it begins, with what the last one's beginning has found.
   void meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins = {},
-            const std::vector<BodyTouch>& pushed = {});
+            const std::vector<BodyTouch>* pushed = nullptr);
   /// After meet, with the ways as it has left them: where two that touch, or may, would push one another.
   std::vector<BodyTouch> touches(const BodyCollision& collision) const;
   /// A ball or a body whose place or velocity is beyond this, m or m/s, or not a number, is put back to its
@@ -158,7 +160,7 @@ class Colliders {
   /// What lasts from step to step (world/state.h); of the same obstacles.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(balls_, targets_, hands_, stopped_, next_id_);
+    archive(balls_, targets_, hands_, impulses_, stopped_, next_id_);
     for (Obstacle& obstacle : obstacles_) archive(obstacle);
     if (Archive::is_loading::value) gather_solids();
   }
@@ -179,8 +181,8 @@ class Colliders {
   /// Decides what sleeps through the step of dt, s, in which all that no force moves goes as it does now.
   void let_sleep(double dt, const Vec3& gravity, const std::vector<Sleeper>& cloths);
   /// meet(), once. Returns how far a body's points may be off, m: the second order of the turn it was given.
-  double bend_ways(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins,
-                   const std::vector<BodyTouch>& pushed);
+  double bend_ways(const std::vector<BodyContact>& contacts, double dt, const std::vector<PinnedNode>& pins,
+                   std::vector<BodyImpulse>& impulses);
   /// What is next to the solid wakes.
   void wake_near(const Solid& solid);
   void stop_bad_balls();
@@ -191,6 +193,7 @@ class Colliders {
   std::vector<Solid> solids_;
   std::vector<Target> targets_;
   std::vector<BodyHand> hands_;
+  KeptImpulses impulses_;  ///< as the last step began
   std::vector<ColliderId> stopped_;
   BallId next_id_ = 1;
   double sleep_speed_ = 0;

@@ -141,7 +141,8 @@ class Simulation {
   std::vector<Sleeper> sleepers() const;
   /// Dynamic balls and bodies meet each other and what is in their way.
   /// Friction between those that the cloths' steps have `pushed` apart has that, too.
-  void meet_bodies(const std::vector<PinnedNode>& pins, double dt, const std::vector<BodyTouch>& pushed = {});
+  void meet_bodies(const std::vector<PinnedNode>& pins, double dt,
+                   const std::vector<BodyTouch>* pushed = nullptr);
   /// After meet_bodies: tells cloths that solve for bodies where these touch one another.
   void join_bodies();
   /// Gathers what the cloths' steps have pushed them apart by.

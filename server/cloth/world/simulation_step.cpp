@@ -69,7 +69,7 @@ void Simulation<Real>::step_part(double time, double dt, int parts_left) {
   for (const Cloth<Real>& cloth : cloths_) cloth.push_balls(colliders_);
   add_body_impulses();
   // What the cloths press into others stays outside.
-  if (colliders_.end_step()) meet_bodies(pins, dt, touches_);
+  if (colliders_.end_step()) meet_bodies(pins, dt, &touches_);
   colliders_.watch(dt);
   collect_guard_events();
 }
@@ -83,7 +83,7 @@ std::vector<Sleeper> Simulation<Real>::sleepers() const {
 
 template <class Real>
 void Simulation<Real>::meet_bodies(const std::vector<PinnedNode>& pins, double dt,
-                                   const std::vector<BodyTouch>& pushed) {
+                                   const std::vector<BodyTouch>* pushed) {
   if (pins.empty() && !colliders_.may_meet()) return;
   if (!body_collision_) body_collision_ = std::make_unique<BodyCollision>();
   colliders_.meet(*body_collision_, dt, pins, pushed);
@@ -213,7 +213,7 @@ template void Simulation<float>::step();
 template void Simulation<float>::step_part(double, double, int);
 template std::vector<Sleeper> Simulation<float>::sleepers() const;
 template void Simulation<float>::meet_bodies(const std::vector<PinnedNode>&, double,
-                                             const std::vector<BodyTouch>&);
+                                             const std::vector<BodyTouch>*);
 template void Simulation<float>::join_bodies();
 template void Simulation<float>::add_body_impulses();
 template void Simulation<float>::share_balls(double);
@@ -224,7 +224,7 @@ template void Simulation<double>::step();
 template void Simulation<double>::step_part(double, double, int);
 template std::vector<Sleeper> Simulation<double>::sleepers() const;
 template void Simulation<double>::meet_bodies(const std::vector<PinnedNode>&, double,
-                                              const std::vector<BodyTouch>&);
+                                              const std::vector<BodyTouch>*);
 template void Simulation<double>::join_bodies();
 template void Simulation<double>::add_body_impulses();
 template void Simulation<double>::share_balls(double);

@@ -73,5 +73,25 @@ TEST(BodyImpulses, AnOffCentreHitTurns) {
   EXPECT_NEAR(bodies[0].spin.z(), -0.5, 1e-6);
 }
 
+TEST(BodyImpulses, TheImpulseThatIsRightIsFoundFromAnyStart) {
+  for (const double start : {0.0, 1.0, 3.0, 40.0}) {
+    std::vector<MovingBody> bodies{moving_body(1, {-3, 0, 0}), MovingBody{}};
+    BodyContact contact = touching_pair(0);
+    contact.start.along = start;
+    const std::vector<BodyImpulse> found = resolve({contact}, bodies, kImpulseStep);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].along, 3, 1e-6) << "1 kg at 3 m/s, from " << start;
+    EXPECT_NEAR(bodies[0].velocity.x(), 0, 1e-6) << start;
+  }
+}
+
+TEST(BodyImpulses, AStartIsNoMoreFrictionThanTheContactBears) {
+  std::vector<MovingBody> bodies{moving_body(1, {-1, 0, 0}), MovingBody{}};
+  BodyContact contact = touching_pair(0, 0.5);
+  contact.start = {1, {0, 20, 0}};
+  resolve({contact}, bodies, kImpulseStep);
+  EXPECT_LT(bodies[0].velocity.norm(), 1e-6) << "nothing slides: friction gives nothing";
+}
+
 }  // namespace
 }  // namespace weft::test

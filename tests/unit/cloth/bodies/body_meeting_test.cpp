@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "meshes.h"
+
 namespace weft {
 namespace {
 
@@ -127,6 +129,35 @@ TEST(BodyMeeting, WhatFliesThroughAWallIsSeenOnItsWay) {
     EXPECT_NEAR(contact.gap, 0.6 - 0.02 - 0.05, 1e-4);
   }
   EXPECT_TRUE(contacts_of(met_solid(Sphere{0.05}, {0.6, 3, 0}, {120, 0, 0}), wall).empty());
+}
+
+// As an impulse may bring it on: a hair above, where FCL finds nothing.
+TEST(BodyMeeting, ABoxJustAboveAnotherTouchesItWithItsCorners) {
+  const Solid box = met_solid(Box{{0.3, 0.1, 0.2}}, {0, 0.101, 0});
+  const Solid lower = met_solid(Box{{1, 0.5, 1}}, {0, -0.5, 0});
+  const std::vector<BodyContact> contacts = contacts_of(box, lower);
+  ASSERT_EQ(contacts.size(), 4U);
+  for (const BodyContact& contact : contacts) EXPECT_NEAR(contact.gap, 1e-3, 1e-9);
+  // Beside it there is nothing to stop it, be it below the height of its top.
+  EXPECT_TRUE(contacts_of(met_solid(Box{{0.3, 0.1, 0.2}}, {1.31, 0.101, 0}), lower).empty());
+}
+
+// What goes along with it, however fast, is not looked at on its way.
+TEST(BodyMeeting, TwoThatFlyTogetherTouchAsAtRest) {
+  const Vec3 fast(0, -50, 20);
+  const Solid box = met_solid(Box{{0.3, 0.1, 0.2}}, {0, 0.0999, 0}, fast);
+  const std::vector<BodyContact> contacts = contacts_of(box, met_solid(Box{{1, 0.5, 1}}, {0, -0.5, 0}, fast));
+  ASSERT_EQ(contacts.size(), 4U);
+  for (const BodyContact& contact : contacts) EXPECT_NEAR(contact.gap, -1e-4, 1e-6);
+}
+
+// An edge of the mesh lies 1 mm in the plate: what of the mesh is next to the place is its side.
+TEST(BodyMeeting, AMeshThatSlidesOnAPlateIsHeldUpByIt) {
+  const TriangleMesh mesh(test::box_mesh({0.1, 0.1, 0.1}));
+  const Solid body = met_solid(Mesh{&mesh}, {0.003, 0.099, 0.002});
+  const std::vector<BodyContact> contacts = contacts_of(body, firm_solid(Box{{2, 0.5, 2}}, {0, -0.5, 0}));
+  ASSERT_GE(contacts.size(), 4U);
+  for (const BodyContact& contact : contacts) EXPECT_GT(contact.normal.y(), 0.999);
 }
 
 }  // namespace

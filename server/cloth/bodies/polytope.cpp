@@ -1,0 +1,96 @@
+#include "cloth/bodies/polytope.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// Corners of one face lie in a plane but for this part of the outer radius, and of the inner one: the two
+/// sides of what is thin are two faces.
+constexpr double kFlat = 0.01, kThin = 0.5;
+/// Of the overlap along the normal that is known: as much less it must be along another one. Where two differ
+/// by less the contact would go from one to the other and back.
+constexpr double kBetter = 0.9;
+
+/// The convex outline of the points as seen against the unit `direction`, counterclockwise (Andrew's monotone
+/// chain, 1979). Points in one place are one; of points in a line it is the two ends.
+std::vector<Vec3> outline(std::vector<Vec3> points, const Vec3& direction) {
+  const Vec3 x = direction.unitOrthogonal(), y = direction.cross(x);
+  std::sort(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
+    const double along = x.dot(p) - x.dot(q);
+    return along != 0 ? along < 0 : y.dot(p) < y.dot(q);
+  });
+  const auto turns_left = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+    constexpr double kLine = 1e-6;  // sine of the angle, or what is one place, relative
+    const double area = direction.dot((q - p).cross(r - q));
+    return area > kLine * (q - p).norm() * (r - p).norm();
+  };
+  std::vector<Vec3> found;
+  for (const bool back : {false, true}) {
+    const std::size_t first = found.size();
+    for (const Vec3& p : points) {
+      while (found.size() >= first + 2 && !turns_left(found[found.size() - 2], found.back(), p)) {
+        found.pop_back();
+      }
+      found.push_back(p);
+    }
+    found.pop_back();
+    if (!back) std::reverse(points.begin(), points.end());
+  }
+  if (found.empty() && !points.empty()) found.push_back(points.front());
+  return found;
+}
+
+}  // namespace
+
+Polytope::Polytope(const PlacedShape& shape)
+    : corners_(corners_of(shape.shape)),
+      faces_(face_normals_of(shape.shape)),
+      size_(outer_radius(shape.shape)),
+      flat_(std::min(kFlat * size_, kThin * inner_radius(shape.shape))) {
+  for (Corner& corner : corners_) corner.place = shape.centre + shape.rotation * corner.place;
+  for (Vec3& normal : faces_) normal = shape.rotation * normal;
+}
+
+double Polytope::reach(const Vec3& direction) const {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const Corner& c : corners_) farthest = std::max(farthest, direction.dot(c.place) + c.radius);
+  return farthest;
+}
+
+std::vector<Vec3> Polytope::highest(const Vec3& direction, double depth) const {
+  const double top = reach(direction);
+  std::vector<Vec3> points;
+  for (const Corner& c : corners_) {
+    if (direction.dot(c.place) + c.radius >= top - depth) points.emplace_back(c.place + c.radius * direction);
+  }
+  return outline(std::move(points), direction);
+}
+
+std::vector<Vec3> Polytope::facing(const Vec3& direction, double tilt) const {
+  const auto face = std::max_element(faces_.begin(), faces_.end(), [&](const Vec3& p, const Vec3& q) {
+    return p.dot(direction) < q.dot(direction);
+  });
+  if (face != faces_.end() && face->dot(direction) > 0 && face->cross(direction).norm() <= tilt)
+    return highest(*face, flat_);
+  return highest(direction, tilt * size_);
+}
+
+Vec3 least_overlap(const Polytope& a, const Polytope& b, const Vec3& known) {
+  const auto overlap = [&](const Vec3& normal) { return b.reach(normal) + a.reach(-normal); };
+  Vec3 best = known;
+  double least = kBetter * overlap(known);
+  const auto look = [&](const Vec3& normal) {
+    const double along = overlap(normal);
+    if (along >= least) return;
+    best = normal;
+    least = along;
+  };
+  for (const Vec3& face : b.faces()) look(face);
+  for (const Vec3& face : a.faces()) look(-face);
+  return best;
+}
+
+}  // namespace weft
