@@ -9,8 +9,9 @@
 namespace weft {
 
 /// Finds where solids, one of which yields, meet in a step. FCL's tree of their boxes, swept over their ways,
-/// leaves few pairs. Of these two convex shapes are looked at where they end, by FCL's collision of shapes,
-/// whose normal the faces that touch are cut by (manifold_of). A half-space, which FCL tells one point of,
+/// leaves few pairs. Of these two convex shapes are looked at where they end, by FCL's collision of shapes:
+/// along its normal, or a better one, the faces that touch are cut (manifold_of); where it finds none they
+/// are by the face that parts them (manifold_before). A half-space, which FCL tells one point of,
 /// and a ball are looked at by their distances. Of a mesh that is not convex the corners and those of the
 /// other are looked at, and besides where their surfaces cross, as FCL tells. What moves so far that it might
 /// have passed through is looked at along its way (conservative advancement: Mirtich, Impulse-based Dynamic

@@ -19,7 +19,7 @@ struct BodyContact {
   double friction = 0;   ///< Coulomb's coefficient of the two
   bool firm = false;     ///< one of them never moves: this is kept where not all can be
   double borne = 0;      ///< what has pushed them apart in the step before: friction has it, too, N s
-  BodyImpulse start{};   ///< with which resolve begins to look
+  BodyImpulse start{};   ///< resolve() starts from it
 };
 
 }  // namespace weft

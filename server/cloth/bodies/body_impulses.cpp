@@ -48,7 +48,7 @@ struct Row {
     if (const double force = impulse.rubbing.norm(); force > most) impulse.rubbing *= most / force;
     push(impulse.along * contact->normal + impulse.rubbing);
   }
-  /// The same without motion.
+  /// The same as velocity() and push(), of shifts without motion.
   double shift_along_normal() const {
     const Vec3 shift = a->shift + a->turn.cross(contact->arm_a) - b->shift - b->turn.cross(contact->arm_b);
     return contact->normal.dot(shift);
@@ -102,8 +102,7 @@ double part(Row& row, double dt) {
   return std::abs(change) * row.inverse_mass;
 }
 
-/// What contacts have given as seen from each one's other side, J: the impulse times the mean of the
-/// velocities before and after.
+/// Work of all impulses, J: each times the mean of the relative velocities before and after.
 double energy_given(const std::vector<Row>& rows) {
   double given = 0;
   for (const Row& row : rows) {

@@ -20,11 +20,11 @@ struct MovingBody {
 /// them: sequential impulses, which are projected Gauss-Seidel sweeps over the contacts in their order, with
 /// Coulomb friction and no restitution (Catto, Iterative Dynamics with Temporal Coherence, GDC 2005; gaps
 /// ahead as in his Continuous Collision, GDC 2013). What takes no way into a gap loses no speed; what
-/// overlaps is shifted apart by a share of it, which gives no speed. Each impulse takes energy: of two bodies
-/// that nothing else moves there is never more.
+/// overlaps is shifted apart by a share of it, which gives no speed. All impulses together take energy: of
+/// bodies that nothing else moves there is never more.
 ///
-/// They begin with what contacts are told to start with. Where there were too few sweeps to take that back,
-/// so that contact would give energy, they begin again from nothing.
+/// The sweeps start from the impulses that the contacts are told. Where they were too few to take back what
+/// of those is wrong, and all contacts together would give energy, all start again from nothing.
 ///
 /// Where there is no way that all contacts allow, as of a body between the ground and a press that leaves
 /// less room than it has, the firm ones, which come last, are kept and the others overlap.

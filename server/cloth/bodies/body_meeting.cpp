@@ -17,7 +17,8 @@ using Geometry = BodyGeometry::Geometry;
 
 /// Of the margin: so far back on its way a pinned node is told which face it comes to.
 constexpr double kSeenFrom = 0.03;
-/// Of the margin: so far within a place, or beside it, the surface is looked for that it has to do with.
+/// Of the margin: so far from a corner that has come in, or from where surfaces cross, the surface is read
+/// that is met there.
 constexpr double kInwards = 0.2;
 
 const TriangleMesh* surface_of(const Solid& solid) {
@@ -30,7 +31,7 @@ double most_turned(const Solid& solid) {
   return solid.turns() ? solid.turn.norm() * outer_radius(solid.shape) : 0;
 }
 
-/// The same by all.
+/// How far any of its points moves in the step at most, m.
 double most_move(const Solid& solid) { return (solid.position - solid.start).norm() + most_turned(solid); }
 
 /// Two solids while their contacts are looked for.
@@ -126,14 +127,15 @@ class BodyMeeting {
   }
 
   /// From b to a, where their surfaces cross. What of them is next to that place may be the face beside an
-  /// edge that has come in by a little. A little way out of one along its normal the other's surface looks
-  /// against that, if it is the face or the edge that is met; none if it does so for neither.
+  /// edge that has come in by a little. A little way into one, against its normal, is out of what has come in
+  /// there: the other's surface looks against that normal, if it is the face or the edge that is met. None if
+  /// it does so for neither.
   std::optional<Vec3> normal_of_crossing(const PlacedShape& a, const PlacedShape& b,
                                          const Vec3& place) const {
     constexpr double kAgainst = 0.1;
     const double beside = kInwards * margin_;
     const Vec3 out_of_a = a.surface(place).normal, out_of_b = b.surface(place).normal;
-    const Vec3 by_b = b.surface(place + beside * out_of_a).normal;
+    const Vec3 by_b = b.surface(place - beside * out_of_a).normal;
     const Vec3 by_a = -a.surface(place - beside * out_of_b).normal;
     const double against_a = -out_of_a.dot(by_b), against_b = out_of_b.dot(by_a);
     if (!(std::max(against_a, against_b) > kAgainst)) return std::nullopt;
@@ -227,16 +229,14 @@ class BodyMeeting {
   void add(const Vec3& arm_a, const Vec3& arm_b, const Vec3& normal, double end, double share = 1) {
     const Vec3 middle_a = in_the_middle(a_, arm_a, -normal, share);
     const Vec3 middle_b = in_the_middle(b_, arm_b, normal, share);
-    contacts_.push_back({index_.first,
-                         index_.second,
-                         middle_a,
-                         middle_b,
-                         normal,
-                         end - normal.dot(move_of(middle_a, middle_b)),
-                         std::sqrt(a_.friction * b_.friction),
-                         is_firm(a_, b_),
-                         0,
-                         {}});
+    contacts_.push_back({.a = index_.first,
+                         .b = index_.second,
+                         .arm_a = middle_a,
+                         .arm_b = middle_b,
+                         .normal = normal,
+                         .gap = end - normal.dot(move_of(middle_a, middle_b)),
+                         .friction = std::sqrt(a_.friction * b_.friction),
+                         .firm = is_firm(a_, b_)});
   }
 
   std::pair<int, int> index_;

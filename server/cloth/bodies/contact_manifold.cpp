@@ -1,7 +1,7 @@
 #include "cloth/bodies/contact_manifold.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "cloth/bodies/polytope.h"
 
@@ -12,6 +12,8 @@ using Points = std::vector<Vec3>;
 
 /// Sine of the angle at which a face may lie to the normal: of the one that cuts, and of the one that is cut.
 constexpr double kAligned = 0.01, kTilted = 0.1;
+/// Cosine: by more the normal of what cuts is not off.
+constexpr double kAbout = 0.9;
 
 /// Of a closed outline, by Newell's method; its length is twice the area.
 Vec3 area_vector(const Points& outline) {
@@ -66,7 +68,9 @@ bool parallel(const Points& p, const Points& q) {
 Points over_face(const Polytope& one, const Polytope& other, Vec3& outwards) {
   const Points reference = one.facing(outwards, kAligned);
   if (reference.size() < 3) return {};
-  outwards = area_vector(reference).normalized();  // FCL's may be off by a little
+  const Vec3 area = area_vector(reference).normalized();
+  if (area.dot(outwards) < kAbout) return {};  // of the rim of something thin that stands on it
+  outwards = area;                             // FCL's may be off by a little
   return over(reference, other.facing(-outwards, kTilted), outwards);
 }
 
@@ -113,7 +117,8 @@ Manifold manifold_of(const PlacedShape& shape_a, const PlacedShape& shape_b, con
     if (edge_a.size() == 2 && edge_b.size() == 2 && parallel(edge_a, edge_b)) {
       add_points(over(edge_b, edge_a, normal), normal, plane, found);
     } else {
-      found.points.push_back({normal == about ? deepest : mean(edge_a), gap});
+      const Vec3 middle = mean(edge_a.size() <= edge_b.size() ? edge_a : edge_b);
+      found.points.push_back({normal == about ? deepest : middle, gap});
     }
   }
   leave_out_beyond(margin, found);
@@ -122,8 +127,9 @@ Manifold manifold_of(const PlacedShape& shape_a, const PlacedShape& shape_b, con
 
 Manifold manifold_before(const PlacedShape& shape_a, const PlacedShape& shape_b, double margin) {
   const Polytope a(shape_a), b(shape_b);
-  Manifold found =
-      over_faces(a, b, least_overlap(a, b, (shape_a.centre - shape_b.centre).stableNormalized()));
+  const std::optional<Vec3> normal = parting_face(a, b);
+  if (!normal) return {};
+  Manifold found = over_faces(a, b, *normal);
   leave_out_beyond(margin, found);
   return found;
 }

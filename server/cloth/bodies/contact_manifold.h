@@ -18,9 +18,9 @@ struct Manifold {
 /// Where they touch, if they do so along the unit normal `about`, from b to a, and at `deepest`, or along
 /// that of a face along which they overlap less (least_overlap): the face of one, if it has one there, cuts
 /// out what of the other's face or edge lies over it, which holds two boxes on each other by their corners;
-/// otherwise it is that point. Leaves out what is farther apart than `margin`, m. (Clipping of the incident
-/// face by the reference face's sides: D. Gregorius, Robust Contact Creation for Physics Simulations, GDC
-/// 2015.)
+/// otherwise it is that point, or the middle of the smaller of their edges there. Leaves out what is farther
+/// apart than `margin`, m. (Clipping of the incident face by the reference face's sides: D. Gregorius, Robust
+/// Contact Creation for Physics Simulations, GDC 2015.)
 Manifold manifold_of(const PlacedShape& a, const PlacedShape& b, const Vec3& about, const Vec3& deepest,
                      double margin);
 

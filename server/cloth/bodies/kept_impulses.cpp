@@ -1,6 +1,7 @@
 #include "cloth/bodies/kept_impulses.h"
 
 #include <algorithm>
+#include <map>
 
 namespace weft {
 namespace {
@@ -17,9 +18,19 @@ Vec3 place_of(const BodyContact& contact, const Solid& a) { return a.rotation.tr
 
 }  // namespace
 
+void KeptImpulses::keep_sleeping(const std::vector<Solid>& solids) {
+  std::map<ColliderId, bool> yields;
+  for (const Solid& solid : solids) yields.emplace(solid.id, solid.yields());
+  const auto still = [&](ColliderId id) {
+    const auto solid = yields.find(id);
+    return solid != yields.end() && !solid->second;
+  };
+  std::erase_if(kept_, [&](const Kept& kept) { return !still(kept.pair.first) || !still(kept.pair.second); });
+}
+
 void KeptImpulses::keep(const std::vector<BodyContact>& contacts, const std::vector<BodyImpulse>& impulses,
                         const std::vector<Solid>& solids, double dt) {
-  kept_.clear();
+  keep_sleeping(solids);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const BodyContact& contact = contacts[i];
     const BodyImpulse& impulse = impulses[i];

@@ -12,10 +12,12 @@ namespace weft {
 /// as many as a step has do not hold up a tower, and what they leave makes it creep.
 class KeptImpulses {
  public:
-  /// What a step's contacts were found to need, contact by contact.
+  /// What a step's contacts were found to need, contact by contact. Two solids of which neither yields, as
+  /// they sleep, are not looked at: what they had stays.
   void keep(const std::vector<BodyContact>& contacts, const std::vector<BodyImpulse>& impulses,
             const std::vector<Solid>& solids, double dt);
-  /// Tells contacts of a step of dt seconds what those in the same place had. Each is told once.
+  /// Tells contacts of a step of dt seconds, in their order, what those had that were in the same place on
+  /// the first of the two. Each is told once.
   void start(std::vector<BodyContact>& contacts, const std::vector<Solid>& solids, double dt) const;
 
   /// What lasts from step to step (world/state.h).
@@ -25,9 +27,12 @@ class KeptImpulses {
   }
 
  private:
+  /// Forgets all but what two have that are there and do not yield.
+  void keep_sleeping(const std::vector<Solid>& solids);
+
   struct Kept {
     std::pair<ColliderId, ColliderId> pair;
-    Vec3 place{0, 0, 0};    ///< from the first one's centre along its own axes, m
+    Vec3 place{0, 0, 0};    ///< BodyContact::arm_a along the first one's axes at the step's end, m
     double along = 0;       ///< mean force along the normal, N
     Vec3 rubbing{0, 0, 0};  ///< the same across it, N
     template <class Archive>

@@ -10,9 +10,9 @@ namespace weft {
 /// Of a solid that yields, J.
 double kinetic_energy(const Solid& solid);
 
-/// What a cloth may gain in a step by the bodies that it meets: no more than they lose, J. A solve that ends
-/// before it has found what a hard blow leaves may gain far more, as nodes that it has not held are put out
-/// of bodies without work.
+/// What a cloth may gain in a step by the bodies that it meets: hardly more than they lose, J. A solve that
+/// ends before it has found what a hard blow leaves may gain far more, as nodes that it has not held are put
+/// out of bodies without work.
 template <class Real>
 class BodyEnergy {
  public:
@@ -28,8 +28,8 @@ class BodyEnergy {
  private:
   bool applies_ = false;
   double cloth_ = 0, bodies_ = 0;  ///< as the step begins, J
-  /// What gravity gives in the step to all that falls, J: what presses cloth may hold as much, by the springs
-  /// that keep things apart.
+  /// What standard gravity gives in the step to all that is at rest, J: the springs that keep things apart
+  /// hold about as much where weights rest.
   double pressed_ = 0;
   VectorField<Real> start_, force_;
 };

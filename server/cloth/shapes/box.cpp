@@ -67,8 +67,12 @@ MassProperties Box::mass_properties() const {
   return {{0, 0, 0}, inertia_of(Eigen::Matrix3d(moment.asDiagonal()))};
 }
 
-std::vector<Vec3> Box::face_normals() const {
-  return {Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ()};
+std::vector<Face> Box::faces() const {
+  std::vector<Face> all;
+  for (const int axis : {0, 1, 2}) {
+    for (const double side : {1.0, -1.0}) all.push_back({side * Vec3::Unit(axis), half[axis]});
+  }
+  return all;
 }
 
 std::vector<Corner> Box::corners() const {

@@ -70,7 +70,7 @@ MassProperties Capsule::mass_properties() const {
   return {{0, 0, 0}, Vec3(across, along, across).asDiagonal()};
 }
 
-std::vector<Vec3> Capsule::face_normals() const { return {}; }
+std::vector<Face> Capsule::faces() const { return {}; }
 
 std::vector<Corner> Capsule::corners() const {
   return {{.place = {0, -half, 0}, .radius = radius}, {.place = {0, half, 0}, .radius = radius}};

@@ -33,7 +33,7 @@ MassProperties HalfSpace::mass_properties() const {
 }
 
 std::vector<Corner> HalfSpace::corners() const { return {}; }
-std::vector<Vec3> HalfSpace::face_normals() const { return {Vec3(0, 1, 0)}; }
+std::vector<Face> HalfSpace::faces() const { return {Face{}}; }
 bool HalfSpace::is_convex() const { return false; }
 
 }  // namespace weft

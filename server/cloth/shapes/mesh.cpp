@@ -30,12 +30,7 @@ double Mesh::outer_radius() const { return surface->outer_radius(); }
 
 MassProperties Mesh::mass_properties() const { return weft::mass_properties(surface->list()); }
 
-std::vector<Vec3> Mesh::face_normals() const {
-  std::vector<Vec3> normals;
-  normals.reserve(surface->triangles().size());
-  for (const Triangle& triangle : surface->triangles()) normals.push_back(triangle.normal);
-  return normals;
-}
+std::vector<Face> Mesh::faces() const { return surface->faces(); }
 
 std::vector<Corner> Mesh::corners() const {
   std::vector<Corner> all;

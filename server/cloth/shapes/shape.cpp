@@ -64,8 +64,8 @@ std::vector<Corner> corners_of(const Shape& shape) {
   return std::visit([](const auto& s) { return s.corners(); }, shape);
 }
 
-std::vector<Vec3> face_normals_of(const Shape& shape) {
-  return std::visit([](const auto& s) { return s.face_normals(); }, shape);
+std::vector<Face> faces_of(const Shape& shape) {
+  return std::visit([](const auto& s) { return s.faces(); }, shape);
 }
 
 bool is_convex(const Shape& shape) {

@@ -28,6 +28,12 @@ struct Corner {
   Vec3 outwards{0, 0, 0};  ///< unit, of a sharp one
 };
 
+/// A flat face of a shape in its own frame.
+struct Face {
+  Vec3 normal{0, 1, 0};  ///< unit, outwards
+  double height = 0;     ///< of its plane over the origin along the normal, m
+};
+
 struct MassProperties;
 
 // Each shape's members are in a file of its name, and say in its own frame what the functions below ask of
@@ -46,7 +52,7 @@ struct Sphere {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
-  std::vector<Vec3> face_normals() const;
+  std::vector<Face> faces() const;
   bool is_convex() const;
 };
 /// All below y = 0 of its own frame.
@@ -60,7 +66,7 @@ struct HalfSpace {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
-  std::vector<Vec3> face_normals() const;
+  std::vector<Face> faces() const;
   bool is_convex() const;
 };
 /// Centred, edges along its own axes.
@@ -76,7 +82,7 @@ struct Box {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
-  std::vector<Vec3> face_normals() const;
+  std::vector<Face> faces() const;
   bool is_convex() const;
 };
 /// All within `radius` of the middle stretch of its own y axis; a limb.
@@ -93,7 +99,7 @@ struct Capsule {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
-  std::vector<Vec3> face_normals() const;
+  std::vector<Face> faces() const;
   bool is_convex() const;
 };
 /// Within a closed surface of triangles. It belongs to someone else, who keeps it: shapes are copied in hot
@@ -110,7 +116,7 @@ struct Mesh {
   double outer_radius() const;
   MassProperties mass_properties() const;
   std::vector<Corner> corners() const;
-  std::vector<Vec3> face_normals() const;
+  std::vector<Face> faces() const;
   bool is_convex() const;
 };
 using Shape = std::variant<Sphere, HalfSpace, Box, Capsule, Mesh>;
@@ -146,8 +152,8 @@ double outer_radius(const Shape& shape);
 /// The shape's corners, of which it is the convex hull unless it is a mesh that is not convex. A half-space
 /// has none.
 std::vector<Corner> corners_of(const Shape& shape);
-/// Outward unit normals of its flat faces in its own frame; of a mesh one of each triangle.
-std::vector<Vec3> face_normals_of(const Shape& shape);
+/// Its flat faces; none of a mesh that is not known to be convex.
+std::vector<Face> faces_of(const Shape& shape);
 /// Neither a half-space nor a mesh that is not known to be convex.
 bool is_convex(const Shape& shape);
 

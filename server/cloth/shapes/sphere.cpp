@@ -40,7 +40,7 @@ MassProperties Sphere::mass_properties() const {
 }
 
 std::vector<Corner> Sphere::corners() const { return {{.radius = radius}}; }
-std::vector<Vec3> Sphere::face_normals() const { return {}; }
+std::vector<Face> Sphere::faces() const { return {}; }
 bool Sphere::is_convex() const { return true; }
 
 }  // namespace weft

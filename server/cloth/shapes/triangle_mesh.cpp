@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cloth/shapes/closed_surface.h"
 
@@ -23,6 +24,23 @@ std::vector<Triangle> triangles_of(const TriangleList& list) {
     triangle.normal = (b - a).cross(c - a).normalized();
   }
   return triangles;
+}
+
+/// Triangles whose normals differ by less make up one face.
+constexpr double kOneFace = 1e-6;
+
+/// Those of the triangles, each once.
+std::vector<Face> faces_of(const std::vector<Triangle>& triangles) {
+  std::map<std::array<long, 3>, Face> faces;
+  for (const Triangle& triangle : triangles) {
+    const auto rounded = [&](int axis) { return std::lround(triangle.normal[axis] / kOneFace); };
+    const Face face{triangle.normal, triangle.normal.dot(triangle.corner[0])};
+    faces.try_emplace({rounded(0), rounded(1), rounded(2)}, face);
+  }
+  std::vector<Face> all;
+  all.reserve(faces.size());
+  for (const auto& [normal, face] : faces) all.push_back(face);
+  return all;
 }
 
 double angle_at(const Triangle& triangle, std::size_t k) {
@@ -50,6 +68,7 @@ TriangleMesh::TriangleMesh(const TriangleList& list)
           triangles_[t].normal + triangles_[static_cast<std::size_t>(neighbours[t][k])].normal;
     }
   }
+  if (list_.convex) faces_ = faces_of(triangles_);
   for (const Vec3& vertex : list_.vertices) {
     bounds_.extend(vertex);
     outer_radius_ = std::max(outer_radius_, vertex.norm());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloth/shapes/shape.h"
 #include "cloth/shapes/triangle_octree.h"
 
 namespace weft {
@@ -34,8 +35,8 @@ class TriangleMesh {
 
   /// The surface as it is taken: without what was left out, counterclockwise as seen from outside.
   const TriangleList& list() const { return list_; }
-  /// Its triangles, in the list's order.
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Of a convex body, the flat faces that its triangles make up; none of another.
+  const std::vector<Face>& faces() const { return faces_; }
 
   struct Nearest {
     double distance = 0;   ///< to the surface, m; negative inside
@@ -72,6 +73,7 @@ class TriangleMesh {
   TriangleList list_;
   std::vector<Triangle> triangles_;
   std::vector<Pseudonormals> pseudonormals_;
+  std::vector<Face> faces_;
   Eigen::AlignedBox3d bounds_;
   double outer_radius_ = 0, inner_radius_ = 0;
   std::optional<TriangleOctree> cells_;

@@ -145,8 +145,8 @@ class Colliders {
   /// of dt, s, that has begun, or, with what the cloths gave them, ended: their ways are bent, and solids().
   /// Again where a hit turned one by so much that what was told of its points by the way that it began with
   /// is off by more than 0.1 mm. `pins` hold up what they meet.
-  /// `pushed`, once the step has ended: what it has pushed them apart by, which friction also has. Without,
-  /// it begins, with what the last one's beginning has found.
+  /// `pushed`, once the step has ended: what it has pushed them apart by, which friction also has. Without it
+  /// the step begins: the impulses start from those that were found when the last one began.
   void meet(BodyCollision& collision, double dt, const std::vector<PinnedNode>& pins = {},
             const std::vector<BodyTouch>* pushed = nullptr);
   /// After meet, with the ways as it has left them: where two that touch, or may, would push one another.
@@ -193,7 +193,7 @@ class Colliders {
   std::vector<Solid> solids_;
   std::vector<Target> targets_;
   std::vector<BodyHand> hands_;
-  KeptImpulses impulses_;  ///< as the last step began
+  KeptImpulses impulses_;  ///< those found when the last step began
   std::vector<ColliderId> stopped_;
   BallId next_id_ = 1;
   double sleep_speed_ = 0;

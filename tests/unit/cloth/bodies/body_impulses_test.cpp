@@ -85,12 +85,31 @@ TEST(BodyImpulses, TheImpulseThatIsRightIsFoundFromAnyStart) {
   }
 }
 
-TEST(BodyImpulses, AStartIsNoMoreFrictionThanTheContactBears) {
+TEST(BodyImpulses, WithoutFrictionNothingStartsAcrossTheNormal) {
   std::vector<MovingBody> bodies{moving_body(1, {-1, 0, 0}), MovingBody{}};
-  BodyContact contact = touching_pair(0, 0.5);
+  BodyContact contact = touching_pair(0, 0);
   contact.start = {1, {0, 20, 0}};
-  resolve({contact}, bodies, kImpulseStep);
-  EXPECT_LT(bodies[0].velocity.norm(), 1e-6) << "nothing slides: friction gives nothing";
+  const std::vector<BodyImpulse> found = resolve({contact}, bodies, kImpulseStep);
+  EXPECT_EQ(found[0].rubbing, Vec3(0, 0, 0));
+  EXPECT_LT(bodies[0].velocity.norm(), 1e-6);
+}
+
+// Bodies in a row, at rest, of which the last stands firm. The sweeps are too few to carry such a start out
+// of it.
+TEST(BodyImpulses, AStartThatWouldGiveEnergyIsLeft) {
+  constexpr int kBodies = 200;
+  std::vector<MovingBody> bodies(kBodies, moving_body(1, {0, 0, 0}));
+  bodies.back() = MovingBody{};
+  std::vector<BodyContact> contacts;
+  for (int i = 0; i + 1 < kBodies; ++i) {
+    BodyContact contact = touching_pair(0);
+    contact.a = i + 1;
+    contact.b = i;
+    contact.start.along = i % 2 == 0 ? 1e6 : 0;
+    contacts.push_back(contact);
+  }
+  resolve(contacts, bodies, kImpulseStep);
+  for (const MovingBody& body : bodies) EXPECT_EQ(body.velocity, Vec3(0, 0, 0));
 }
 
 }  // namespace

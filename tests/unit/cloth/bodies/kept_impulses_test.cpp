@@ -83,5 +83,22 @@ TEST(KeptImpulses, PinnedNodesAreNotKept) {
   EXPECT_EQ(next[0].start.along, 0);
 }
 
+// What sleeps yields to nothing, and is in no contact then.
+TEST(KeptImpulses, WhatSleepsKeepsItsOwn) {
+  std::vector<Solid> solids = two_boxes();
+  KeptImpulses kept;
+  kept.keep({contact_at({0.1, -0.1, 0})}, {{2, {0, 0, 0}}}, solids, 0.01);
+  for (Solid& solid : solids) solid.inverse_mass = 0;
+  kept.keep({}, {}, solids, 0.01);
+  std::vector<BodyContact> next{contact_at({0.1, -0.1, 0})};
+  kept.start(next, solids, 0.01);
+  EXPECT_EQ(next[0].start.along, 2);
+  solids[0].inverse_mass = 1;  // awake, and apart
+  kept.keep({}, {}, solids, 0.01);
+  next = {contact_at({0.1, -0.1, 0})};
+  kept.start(next, solids, 0.01);
+  EXPECT_EQ(next[0].start.along, 0);
+}
+
 }  // namespace
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "meshes.h"
@@ -38,13 +39,17 @@ TEST(Polytope, WithoutAFaceThereItIsAnEdgeOrACorner) {
   EXPECT_EQ(on_edge.facing(Vec3(1, 1, 0).normalized(), 0.01).size(), 1U);
 }
 
-TEST(Polytope, ATriangleOfAConvexMeshLooksOutwards) {
+TEST(Polytope, TheTrianglesOfAConvexMeshMakeUpItsFaces) {
   TriangleList list = test::box_mesh({1, 2, 3});
   list.convex = true;
   const TriangleMesh mesh(list);
-  const Polytope box({Mesh{&mesh}, {0, 0, 0}});
-  ASSERT_EQ(box.faces().size(), 12U);
-  for (const Vec3& normal : box.faces()) EXPECT_DOUBLE_EQ(normal.cwiseAbs().maxCoeff(), 1);
+  const Polytope box({Mesh{&mesh}, {10, 0, 0}});
+  ASSERT_EQ(box.faces().size(), 6U);
+  for (const Face& face : box.faces()) {
+    EXPECT_DOUBLE_EQ(face.normal.cwiseAbs().maxCoeff(), 1);
+    EXPECT_DOUBLE_EQ(face.height, box.reach(face.normal));
+  }
+  EXPECT_TRUE(Polytope({Sphere{1}, {0, 0, 0}}).faces().empty());
   EXPECT_EQ(box.facing(Vec3::UnitY(), 0.1).size(), 4U);
 }
 
@@ -52,6 +57,13 @@ TEST(Polytope, ATriangleOfAConvexMeshLooksOutwards) {
 TEST(LeastOverlap, AWrongNormalIsLeftForThatOfTheFace) {
   const Polytope upper(box_at({0.1, 0.1, 0.1}, {0.3, 0.099, 0})), lower(box_at({1, 1, 1}, {0, -1, 0}));
   EXPECT_EQ(least_overlap(upper, lower, Vec3::UnitX()), Vec3(0, 1, 0));
+}
+
+TEST(PartingFace, IsTheOneThatPartsThemMost) {
+  const Polytope a(box_at({1, 1, 1}, {2.1, 2.3, 0})), b(box_at({1, 1, 1}, {0, 0, 0}));
+  EXPECT_EQ(parting_face(a, b), Vec3(0, 1, 0));
+  EXPECT_EQ(parting_face(b, a), Vec3(0, -1, 0));
+  EXPECT_FALSE(parting_face(a, Polytope(box_at({1, 1, 1}, {1, 1, 0}))));  // they overlap
 }
 
 // Along the other it is 3 % less.
