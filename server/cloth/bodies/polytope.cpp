@@ -14,8 +14,9 @@ constexpr double kFlat = 0.01, kThin = 0.5;
 /// Of the overlap along the normal that is known: as much less it must be along another one. Where two differ
 /// by less the contact would go from one to the other and back.
 constexpr double kBetter = 0.9;
-/// Of the smaller outer radius: by so little they overlap by rounding.
-constexpr double kTouch = 1e-6;
+/// Of the smaller outer radius: what overlaps by so little along its faces may be parted by its edges. Held
+/// by the face all the while, and not now and then, it comes to rest.
+constexpr double kTouch = 0.01;
 /// Faces of one times corners of the other: with more FCL's normal is taken as it is. As many are looked at
 /// in a fifth of a millisecond.
 constexpr std::size_t kMostProducts = 200000;

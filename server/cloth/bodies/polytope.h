@@ -40,8 +40,8 @@ class Polytope {
 /// they have too many faces and corners for that.
 Vec3 least_overlap(const Polytope& a, const Polytope& b, const Vec3& known);
 
-/// The same of their faces alone, where the shapes are on the two sides of one; none if they are of none, or
-/// if there are too many.
+/// The same of their faces alone, where the shapes are on the two sides of one or nearly so; none if they are
+/// of none, or if there are too many.
 std::optional<Vec3> parting_face(const Polytope& a, const Polytope& b);
 
 }  // namespace weft
