@@ -13,17 +13,9 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kPi = std::numbers::pi;
 
-MeshDescription mesh_of(TriangleList list, bool convex) {
-  list.convex = convex;
-  MeshDescription mesh;
-  mesh.surface = std::make_shared<const TriangleMesh>(list);
-  mesh.convex = convex;
-  return mesh;
-}
-
 /// The same box in the three ways in which there are boxes.
 std::vector<decltype(ObstacleDescription::shape)> boxes(const Vec3& size) {
-  return {BoxDescription{size}, mesh_of(box_mesh(size / 2), true), mesh_of(box_mesh(size / 2), false)};
+  return {BoxDescription{size}, solid_of(box_mesh(size / 2), true), solid_of(box_mesh(size / 2), false)};
 }
 
 // --- Rest ---
