@@ -45,6 +45,7 @@ void Simulation<Real>::reset() {
   body_collision_.reset();
   colliders_ = Colliders(description_.balls, description_.obstacles, description_.sleep_speed);
   cloths_ = make_cloths<Real>(description_);
+  make_layers(cloth_contact(description_.effects));  // what contact remembers is of the old cloths
   compose(description_.effects);
   last_advance_.assign(cloths_.size(), AdvanceReport{});
   steps_ = 0;

@@ -216,6 +216,21 @@ TEST(Tearing, ResetMendsAndTheHashTellsWalls) {
   EXPECT_NE(state_hash(tears), state_hash(holds));
 }
 
+// Contact remembers which faces are torn, and where the layers were.
+TEST(Tearing, AfterAResetContactIsThatOfTheWholeCloth) {
+  SimulationDescription scene = hung_strip(Bdf2Description{}, 0.9 * kTopLoad);
+  scene.effects.emplace_back(ClothContactEffect{});
+  Simulation<float> simulation(scene), fresh(scene);
+  run(simulation, 10);
+  ASSERT_NE(simulation.cloths()[0].walls(), nullptr);
+  simulation.reset();
+  for (int step = 0; step < 10; ++step) {
+    simulation.step();
+    fresh.step();
+    ASSERT_EQ(state_hash(simulation), state_hash(fresh)) << step;
+  }
+}
+
 TEST(Tearing, TakenAwayItTearsNoFurtherAndMendsNothing) {
   SimulationDescription scene = hung_strip(Bdf2Description{}, 0.9 * kTopLoad);
   Simulation<float> simulation(scene);
