@@ -224,18 +224,21 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
     restart_all();
     return 1;
   }
-  const Vec3 point = now.centre;
+  // A hand's place does not go on with the cloth, so that its lever on a cloth that it slings is that about a
+  // fixed point. Any other force has that about the centre where it is now: gravity has none there.
+  const Vec3 point = drawn ? now.centre : end.centre;
+  const auto turning = [&](const Motion& motion) { return drawn ? motion.about(point) : motion.spin; };
   Input given;
   for (const Member& member : members) given += member.keeper->input(member, point);
   Vec3 momentum = now.momentum + h * given.force + given.momentum;
-  Vec3 angular = now.about(point) + h * given.torque + given.angular_momentum;
+  Vec3 angular = turning(now) + h * given.torque + given.angular_momentum;
   if (by_bdf2) {
     momentum = (4 * now.momentum - before.momentum + 2 * h * given.force) / 3;
-    angular = (4 * now.about(point) - before.about(point) + 2 * h * given.torque) / 3;
+    angular = (4 * turning(now) - turning(before) + 2 * h * given.torque) / 3;
   }
 
   const Vec3 missing = momentum - end.momentum;
-  const Vec3 missing_spin = angular - end.about(point) - (end.centre - point).cross(missing);
+  const Vec3 missing_spin = angular - turning(end) - (end.centre - point).cross(missing);
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const Member& member : members) inertia += inertia_about(end.centre, *member.particles);
   const double lasts = by_bdf2 ? 2 * h / 3 : h;  // what moves by dv is dv times that farther, by the formula
