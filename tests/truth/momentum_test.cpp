@@ -77,6 +77,25 @@ TEST_P(FreeMomentum, OfASheetAndWhatHitsIt) {
   }
 }
 
+// A sheet that shears easily folds round a ball of five times its mass, and its layers meet behind it.
+TEST_P(FreeMomentum, OfASheetThatFoldsRoundABall) {
+  for (const int level : {4, 5}) {
+    SimulationDescription scene = free_sheet(level, GetParam());
+    scene.time_step = level == 4 ? 1.0 / 60 : 1.0 / 30;
+    scene.sleep_speed = 0;
+    scene.cloths[0].size = {1, 1};
+    scene.cloths[0].material.structural = 2000;
+    scene.cloths[0].material.shear = 5;
+    scene.cloths[0].material.bending = 0;
+    scene.effects = {StrainLimitEffect{}, ClothContactEffect{}};
+    scene.balls = {flying_ball({0.04, 0.3, 0.05}, 0.12, {0, -8, 0})};
+    Simulation<float> simulation(scene);
+    const Momentum before = momentum(simulation);
+    for (double time = 0; time < 0.8; time += scene.time_step) simulation.step();
+    ASSERT_LT((momentum(simulation).linear - before.linear).norm(), 1e-4 * 8) << level;
+  }
+}
+
 // Folded by its own motion, it goes on turning.
 TEST_P(FreeMomentum, OfASheetThatTumbles) {
   Simulation<float> simulation(free_sheet(4, GetParam()));

@@ -72,9 +72,10 @@ bool LayerContacts<Real>::meets_others() const {
 
 template <class Real>
 bool LayerContacts<Real>::meets_outsiders() const {
-  return !struck_.empty() || std::any_of(pairs_.begin(), pairs_.end(), [&](const LayerPair& pair) {
-    return !parts_.part_of(pair.features.node[0]) || !parts_.part_of(pair.features.node[2]);
-  });
+  const bool all = nodes_->first.size() == parts_.size() + 1;
+  return (!all && !struck_.empty()) || std::any_of(pairs_.begin(), pairs_.end(), [&](const LayerPair& pair) {
+           return !parts_.part_of(pair.features.node[0]) || !parts_.part_of(pair.features.node[2]);
+         });
 }
 
 template <class Real>
