@@ -22,6 +22,13 @@ constexpr double kSlowStep = 0.02;
 /// Of what the motion loses in wind.
 constexpr double kKeptInWind = 0.5;
 
+/// The energy of the speed that gravity gives a cloth at rest in a step of `dt` seconds, J.
+template <class Real>
+double gravity_gives(const Particles<Real>& particles, double dt) {
+  const double speed = standard_gravity().norm() * dt;
+  return total_mass(particles) * speed * speed / 2;
+}
+
 }  // namespace
 
 template <class Real>
@@ -36,8 +43,7 @@ double EnergyLedger<Real>::height(const Particles<Real>& particles, const Forces
 
 template <class Real>
 double EnergyLedger<Real>::kept_share(const Particles<Real>& particles, double motion, double dt) const {
-  const double slow = kSlowStep * standard_gravity().norm() * dt;
-  return motion / (motion + total_mass(particles) * slow * slow / 2);
+  return motion / (motion + kSlowStep * kSlowStep * gravity_gives(particles, dt));
 }
 
 template <class Real>
@@ -99,6 +105,7 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
   const double work = firm ? work_whole_ : work_;
   double lost = (firm ? account.now_whole : account.now) + work - taken_ - now;
   if (!books_) lost = account.owed = 0;
+  const double owed = account.owed;
   account.owed += lost - std::clamp(lost, -led_out_, led_out_);
   const bool wind = account.drive == Drive::wind;
   const double kept =
@@ -114,7 +121,9 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                  : account.most - now;
     change = std::min(change, room);
   }
-  account.owed = std::clamp(account.owed - change, -most_owed, leans ? 0 : most_owed);
+  // A motion that turns is about as slow as what gravity gives in a step. What a step loses beyond is folds'.
+  const double may_owe = std::min(most_owed, std::max(0.0, owed) + gravity_gives(particles, dt));
+  account.owed = std::clamp(account.owed - change, -most_owed, leans ? 0 : may_owe);
   report.effects_work = work;
   report.contact_took = taken_;
   report.energy_lost = lost;

@@ -87,11 +87,11 @@ template <class Real>
 SolveTarget MotionScale<Real>::target(double tolerance, bool contact) const {
   const double share = tolerance * tolerance;
   const double of_gravity = std::min(share, kOfGravity * kOfGravity);
-  const double least = share * kinetic_ + of_gravity * mass_ * slow_ * slow_;
+  const double least = share * inner_ + of_gravity * mass_ * slow_ * slow_;
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
   return {least, near_rest() && contact ? 0 : share,
-          std::max(least, share * kinetic_ + of_gravity * still())};
+          std::max(least, share * inner_ + of_gravity * still())};
 }
 
 template class MotionScale<float>;

@@ -29,7 +29,9 @@ class MotionScale {
   /// Twice the energy of the motion that nodes have or, unless it is fine, gravity gives them in the substep,
   /// J. Of what nothing pins as seen from its mean velocity: in flight a sheet bends no more than at rest.
   double energy() const;
-  /// Of solves that may be off by `tolerance` of the speed; `contact`: something touches the cloth.
+  /// Of solves that may be off by `tolerance` of the speed, of what nothing pins of that beside its mean
+  /// velocity: how fast something carries it says nothing of an error. `contact`: something touches the
+  /// cloth.
   SolveTarget target(double tolerance, bool contact) const;
 
  private:

@@ -158,15 +158,17 @@ TEST(EnergyLedger, ATornClothGetsNothingBack) {
 }
 
 // Where the motion turns there is little to scale: what it lost then waits until there is more.
-TEST(EnergyLedger, WhatCannotBeGivenBackIsOwed) {
+// Where a motion turns, which is about as slow there as what gravity gives in a step. What is lost beyond
+// that is not owed.
+TEST(EnergyLedger, WhatCannotBeGivenBackIsOwedUpToWhatGravityGives) {
   Booked cloth(Drive::nothing);
   cloth.begin();
   cloth.end();  // as it has moved of late
   cloth.begin();
   cloth.scale(0.1);
   cloth.end();
-  const double owed = cloth.report.energy_lost - cloth.report.energy_given_back;
-  EXPECT_GT(owed, cloth.report.energy_given_back);
+  const double speed = 9.81 * kLedgerStep, most = total_mass(cloth.rig.particles) * speed * speed / 2;
+  EXPECT_GT(cloth.report.energy_lost - cloth.report.energy_given_back, 10 * most);
   // Contact gives it a motion, which it had not lost; what it is owed comes with that.
   cloth.begin();
   const double before = cloth.inner_energy();
@@ -174,7 +176,7 @@ TEST(EnergyLedger, WhatCannotBeGivenBackIsOwed) {
   cloth.ledger.count_contact({before - cloth.inner_energy(), 0});
   cloth.end();
   EXPECT_NEAR(cloth.report.energy_lost, 0, 1e-12 * before);
-  EXPECT_GT(cloth.report.energy_given_back, 0.01 * owed);
+  EXPECT_NEAR(cloth.report.energy_given_back, most, 0.01 * most);
 }
 
 /// A way of the free nodes, random within 0.1 m.

@@ -85,6 +85,16 @@ TEST(MotionScale, ATargetIsAShareOfTheMotion) {
   EXPECT_GE(slow.most, slow.least);
 }
 
+// A sheet that nothing pins is solved alike however fast it is carried along (Galilei): a patch on a
+// turntable, too.
+TEST(MotionScale, ATargetDoesNotKnowHowFastTheSheetIsCarried) {
+  const SolveTarget slow = Measured(false, {1, 0, 0}).scale.target(0.1, true),
+                    fast = Measured(false, {30, 0, 40}).scale.target(0.1, true);
+  // Beside what gravity gives rounding of a speed of 50 m/s is nothing.
+  EXPECT_NEAR(fast.most, slow.most, 1e-9 * kGiven);
+  EXPECT_NEAR(fast.least, slow.least, 1e-9 * kGiven);
+}
+
 // On its way to rest it is solved ever more finely, and in contact near rest not by a share of what it finds.
 TEST(MotionScale, NearRestTargetsAreFinerAndInContactNoShare) {
   const MotionScale<double> moving = Measured(true, {0, 1, 0}).scale,
