@@ -40,7 +40,8 @@ class RandomScenes : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenes, AreFiniteAndBounded) { check_seeds(GetParam(), 2, 4); }
 INSTANTIATE_TEST_SUITE_P(Stability, RandomScenes, ::testing::Values<std::uint64_t>(19));
-INSTANTIATE_TEST_SUITE_P(Slow, RandomScenes, ::testing::Range<std::uint64_t>(1, 19, 2));
+INSTANTIATE_TEST_SUITE_P(Slow, RandomScenes, ::testing::Range<std::uint64_t>(1, 11, 2));
+INSTANTIATE_TEST_SUITE_P(Nightly, RandomScenes, ::testing::Range<std::uint64_t>(11, 19, 2));
 
 #ifdef WEFT_SANITIZED
 constexpr std::uint64_t kNewScenes = 100;
@@ -187,16 +188,20 @@ TEST_P(Regressions, StayRepaired) {
   }
 }
 
-std::vector<std::filesystem::path> regression_files() {
+std::vector<std::filesystem::path> regression_files(const char* folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(WEFT_STABILITY_REGRESSIONS)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(WEFT_STABILITY_REGRESSIONS) + folder)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(Slow, Regressions, ::testing::ValuesIn(regression_files()),
+INSTANTIATE_TEST_SUITE_P(Slow, Regressions, ::testing::ValuesIn(regression_files("")),
+                         [](const auto& each) { return each.param.stem().string(); });
+// Those that take ten seconds or more.
+INSTANTIATE_TEST_SUITE_P(Nightly, Regressions, ::testing::ValuesIn(regression_files("/nightly")),
                          [](const auto& each) { return each.param.stem().string(); });
 
 }  // namespace

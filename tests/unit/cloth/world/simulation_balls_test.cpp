@@ -158,7 +158,7 @@ TEST(SimulationBalls, LongStepsOntoARoughOneBringInNoEnergy) {
 // A ball of friction 0.3 goes to and fro at 0.5 m/s under a sheet of 4 N held by its corners, in 1/15 s. The
 // friction of its weight and of what holds it down stretches a corner's spring by 0.054 at every turn at 60
 // Hz (S20a, of which this is the first half); by the last step's force alone it was 0.13 here at one of them.
-TEST(SimulationBallsSlow, OneRollingUnderASheetRubsByItsUsualWeight) {
+TEST(SimulationBallsNightly, OneRollingUnderASheetRubsByItsUsualWeight) {
   SimulationDescription scene;
   ClothDescription cloth;
   cloth.size = {2, 2};
