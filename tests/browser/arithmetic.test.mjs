@@ -191,6 +191,9 @@ test('ages are the means since they were last told', () => {
   ages.add(50, 20);
   assert.deepEqual(ages.take(), {age: 40, onWay: 15});
   assert.equal(ages.take(), null);
+  // A way that the clocks tell as -2 ms is one of none, and the picture was drawn 3 ms after its frame came.
+  ages.add(1, -2);
+  assert.deepEqual(ages.take(), {age: 3, onWay: 0});
 });
 
 test('the timeline never goes beyond the newest frame', () => {

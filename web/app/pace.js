@@ -36,8 +36,9 @@ export class Ages {
   /** A picture was drawn. @param {number} age ms since the server sent off what it shows @param {number} onWay the part until it arrived, ms */
   add(age, onWay) {
     if (!Number.isFinite(age + onWay)) return;  // no ping has been answered yet
-    this.sum += age;
-    this.onWay += Math.max(0, onWay);  // the clocks' difference is known to half a round trip
+    const way = Math.max(0, onWay);  // the clocks' difference is known to half a round trip
+    this.sum += age - onWay + way;
+    this.onWay += way;
     this.count += 1;
   }
 
