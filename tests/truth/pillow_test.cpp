@@ -1,7 +1,6 @@
 // A pillow of two squares sewn together: what it holds, and that its gas keeps p V.
 #include "cloth/sheet/diagnostics.h"
 #include "cloth/world/simulation.h"
-#include "fixtures.h"
 #include "methods.h"
 
 namespace weft::test {
@@ -94,10 +93,7 @@ TEST_P(Thrown, PillowFallsAsEverythingDoes) {
 
 /// Angular momentum about its centre of mass, N m s.
 Vec3 spin(const Particles<float>& particles) {
-  Vec3 centre(0, 0, 0);
-  each_node(particles.grid(),
-            [&](int r, int c) { centre += double(particles.mass.at(r, c)) * particles.position_at(r, c); });
-  return angular_momentum(particles) - (centre / total_mass(particles)).cross(linear_momentum(particles));
+  return angular_momentum(particles) - centre_of_mass(particles).cross(linear_momentum(particles));
 }
 
 // Gravity has no torque about the centre of mass, and how fast a bag goes as a whole nobody sees: thrown

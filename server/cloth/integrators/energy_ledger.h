@@ -14,8 +14,9 @@ namespace weft {
 /// momenta stay where nothing is held (after Dinev et al., FEPR: Fast Energy Projection for Real-Time
 /// Simulation of Deformable Objects, 2018, who project each step; and Su, Sheth, Fedkiw, Energy Conservation
 /// for the Simulation of Deformable Bodies, 2013). Where a motion turns there is little to scale: what cannot
-/// be given then is owed, up to what gravity gives in a step. What a step loses beyond that is what folds lose
-/// that it does not resolve: given back later it would speed up a sheet in flight.
+/// be given then is owed, which in each step grows by no more than what gravity gives in one. What a step
+/// loses beyond that is of folds that it does not resolve: given back later it would speed up a sheet in
+/// flight.
 ///
 /// A motion as slow as what a solve leaves undone in a step gets nothing back, or errors alone would keep it
 /// going. Nor does a torn cloth, whose pieces do not move as one, nor one whose layers touch, as nobody

@@ -224,8 +224,8 @@ double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double
     restart_all();
     return 1;
   }
-  // A hand's place does not go on with the cloth, so that its lever on a cloth that it slings is that about a
-  // fixed point. Any other force has that about the centre where it is now: gravity has none there.
+  // A hand's place does not go on with the cloth, so that what a hand draws turns about a fixed point. Other
+  // cloth turns about its own centre at the substep's end, where gravity has no lever.
   const Vec3 point = drawn ? now.centre : end.centre;
   const auto turning = [&](const Motion& motion) { return drawn ? motion.about(point) : motion.spin; };
   Input given;

@@ -14,7 +14,8 @@ namespace weft {
 /// effects' forces make of them by the formula of the substep: backward Euler's, h F, or BDF2's, where all
 /// nodes are stepped by that. Angular momentum is that about the cloth's own centre, which goes on in the
 /// substep: about a fixed point the forces at the substep's end would have a lever of h V on the momentum at
-/// its beginning, and gravity would make what is thrown spin.
+/// its beginning, and gravity would make what is thrown spin. What a hand or a pin draws turns about a fixed
+/// point all the same, as its hold does not go on with it.
 ///
 /// Turning has its energy from what the substep left of that with which it began, and then from the inner
 /// motion. Of a sheet that drew together as its solve failed both may be too little for the same angular

@@ -90,8 +90,7 @@ SolveTarget MotionScale<Real>::target(double tolerance, bool contact) const {
   const double least = share * inner_ + of_gravity * mass_ * slow_ * slow_;
   // Of what there is to find in contact most is how far the weight presses the springs that hold the nodes to
   // the solids: a share of that would shake a drape near rest for ever.
-  return {least, near_rest() && contact ? 0 : share,
-          std::max(least, share * inner_ + of_gravity * still())};
+  return {least, near_rest() && contact ? 0 : share, std::max(least, share * inner_ + of_gravity * still())};
 }
 
 template class MotionScale<float>;

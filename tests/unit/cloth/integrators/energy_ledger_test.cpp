@@ -157,9 +157,8 @@ TEST(EnergyLedger, ATornClothGetsNothingBack) {
   EXPECT_EQ(cloth.report.energy_given_back, 0);
 }
 
-// Where the motion turns there is little to scale: what it lost then waits until there is more.
-// Where a motion turns, which is about as slow there as what gravity gives in a step. What is lost beyond
-// that is not owed.
+// Where the motion turns there is little to scale: what it lost then waits until there is more, but no more
+// of it than what gravity gives in a step.
 TEST(EnergyLedger, WhatCannotBeGivenBackIsOwedUpToWhatGravityGives) {
   Booked cloth(Drive::nothing);
   cloth.begin();
