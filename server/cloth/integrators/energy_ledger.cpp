@@ -121,7 +121,8 @@ double EnergyLedger<Real>::end_step(Particles<Real>& particles, const Forces<Rea
                                  : account.most - now;
     change = std::min(change, room);
   }
-  // A motion that turns is about as slow as what gravity gives in a step. What a step loses beyond is folds'.
+  // Where a motion turns it is about as slow as what gravity gives in a step, and loses less than that. More
+  // is lost by folds that the step does not resolve.
   const double may_owe = std::min(most_owed, std::max(0.0, owed) + gravity_gives(particles, dt));
   account.owed = std::clamp(account.owed - change, -most_owed, leans ? 0 : may_owe);
   report.effects_work = work;

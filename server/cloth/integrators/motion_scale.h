@@ -7,8 +7,8 @@ namespace weft {
 
 /// How large the motion in an implicit substep is, and by that how large an error its solves may leave: a
 /// share of the speeds that the nodes have, where nothing is pinned beside their mean velocity, or are given,
-/// at most by gravity. On its way to rest a cloth is so
-/// solved ever more finely: errors that stayed the same would shake it for ever.
+/// at most by gravity. On its way to rest a cloth is so solved ever more finely: errors that stayed the same
+/// would shake it for ever.
 template <class Real>
 class MotionScale {
  public:

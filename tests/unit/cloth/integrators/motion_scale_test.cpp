@@ -85,8 +85,8 @@ TEST(MotionScale, ATargetIsAShareOfTheMotion) {
   EXPECT_GE(slow.most, slow.least);
 }
 
-// A sheet that nothing pins is solved alike however fast it is carried along (Galilei): a patch on a
-// turntable, too.
+// A sheet that nothing pins is solved alike however fast it is carried along (Galilei), unless it is near
+// rest.
 TEST(MotionScale, ATargetDoesNotKnowHowFastTheSheetIsCarried) {
   const SolveTarget slow = Measured(false, {1, 0, 0}).scale.target(0.1, true),
                     fast = Measured(false, {30, 0, 40}).scale.target(0.1, true);
