@@ -90,7 +90,7 @@ class BodyOnSheet : public ImplicitMethod {};
 
 TEST_P(BodyOnSheet, StaysOnIt) {
   Draw draw;
-  for (int body = 0; body < 16; ++body) {
+  for (int body = 0; body < sample(16); ++body) {
     const SimulationDescription scene = dropped(draw, body % 2 == 0 ? draw.box() : draw.hull(), integrator());
     Simulation<float> simulation(scene);
     const auto height = [&] { return simulation.colliders().obstacles()[0].pose.position.y(); };
@@ -107,7 +107,7 @@ TEST_P(BodyOnSheet, StaysOnIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Implicit, BodyOnSheet, ::testing::Values(Method::bdf2), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Nightly, BodyOnSheet, ::testing::Values(Method::backward_euler), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Nightly, BodyOnSheet, ::testing::ValuesIn(kImplicitMethods), name_of_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -54,7 +54,7 @@ class LevelChange : public ImplicitMethod {
 // a fifth of a coarse cell or more: cloth comes off some thinner ones.
 TEST_P(LevelChange, ToACoarserOneLeavesClothOnItsRail) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{6, 4}, {5, 4}, {6, 5}}};
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < sample(16); ++k) {
     const auto [fine, coarse] = draws.one_of(kLevels);
     const double side = draws.between(1.2, 3), radius = side / (1 << coarse) * draws.between(0.1, 0.4);
     scene.cloths = {flat(draws.one_of(kFabrics), side, side + radius + 0.02)};
@@ -81,7 +81,7 @@ TEST_P(LevelChange, ToACoarserOneLeavesClothOnItsRail) {
 // bears: the energy is then up to 1.28 of the start's, the strain up to 0.44.
 TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{4, 6}, {4, 5}, {5, 6}}};
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < sample(16); ++k) {
     const double side = draws.between(1, 2.4), width = side * draws.between(0.3, 0.6);
     const auto [coarse, fine] = draws.one_of(kLevels);
     const double thickness = side / (1 << coarse) * draws.between(0.5, 2);
@@ -118,7 +118,7 @@ TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
 TEST_P(LevelChange, KeepsTwoClothsApart) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{4, 5}, {3, 5}, {5, 4}}};
   scene.effects.emplace_back(ClothContactEffect{});
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < sample(6); ++k) {
     const double side = draws.between(1.2, 2), radius = side * draws.between(0.1, 0.25);
     const auto [from, to] = draws.one_of(kLevels);
     scene.cloths = {flat(draws.one_of(kFabrics), side, side + radius + 0.02),
@@ -145,7 +145,7 @@ TEST_P(LevelChange, KeepsTwoClothsApart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Implicit, LevelChange, ::testing::Values(Method::bdf2), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Nightly, LevelChange, ::testing::Values(Method::backward_euler), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Nightly, LevelChange, ::testing::ValuesIn(kImplicitMethods), name_of_case);
 
 }  // namespace
 }  // namespace weft::test

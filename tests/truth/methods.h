@@ -8,6 +8,7 @@
 #include <numbers>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "rig.h"
 
@@ -101,6 +102,11 @@ class ImplicitMethod : public ::testing::TestWithParam<Method> {
   static IntegratorDescription integrator() {
     if (GetParam() == Method::bdf2) return Bdf2Description{};
     return BackwardEulerDescription{};
+  }
+  /// How many of `all` random scenes a test draws: half of them, or all in an instantiation Nightly/....
+  static int sample(int all) {
+    const std::string_view suite = ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+    return suite.starts_with("Nightly/") ? all : all / 2;
   }
 };
 inline constexpr std::array kImplicitMethods{Method::bdf2, Method::backward_euler};

@@ -97,12 +97,15 @@ INSTANTIATE_TEST_SUITE_P(Swings, UndampedEnergy,
                                            Run{"strip", Method::xpbd, 4, 60, 0, 20}),
                          name_of_run);
 
-// A sheet held all round whose stiffest modes turn by more than sqrt(2) radians a substep, and one that folds
-// upon itself, whose layers are held apart by springs or by impulses.
+// A sheet that folds upon itself, whose layers are held apart by springs or by impulses.
 INSTANTIATE_TEST_SUITE_P(Sheets, UndampedEnergy,
-                         ::testing::Values(Run{"paper-screen", Method::symplectic_euler, 5, 60, 0, 10},
-                                           Run{"towel", Method::bdf2, 5, 60, 8, 3},
+                         ::testing::Values(Run{"towel", Method::bdf2, 5, 60, 8, 3},
                                            Run{"towel", Method::symplectic_euler, 4, 60, 0, 6}),
+                         name_of_run);
+
+// A sheet held all round whose stiffest modes turn by more than sqrt(2) radians a substep.
+INSTANTIATE_TEST_SUITE_P(NightlySheets, UndampedEnergy,
+                         ::testing::Values(Run{"paper-screen", Method::symplectic_euler, 5, 60, 0, 10}),
                          name_of_run);
 
 // Nothing takes the energy of these, so all of the motion stays: its energy is 1 of what it was. Without the

@@ -97,7 +97,7 @@ TEST_P(StateOfPreset, GoesOnToTheBit) {
     SCOPED_TRACE(method.index());
     std::mt19937 draw(seed++);
     // Torn paper among balls takes ten thousand explicit substeps a step.
-    const int share = std::holds_alternative<SymplecticEulerDescription>(method) ? 4 : 1;
+    const int share = std::holds_alternative<SymplecticEulerDescription>(method) ? 6 : 1;
     Simulation<float> one(description);
     steps(one, draw, 48 / share);
     const std::string state = save_state(one);
