@@ -48,11 +48,13 @@ TEST_P(SlungSheet, MovesAsInSmallSteps) {
   fine.substeps = 16;
   for (const int level : {4, 5}) {
     const Motion expected = slung(fine, level, 60);
-    // 0.92 to 1.09 of the most, and 0.86 to 0.98 of the mean; without its place by the keeper 1e8.
+    // A whip's motion hangs on rounding: of 16 that were slung otherwise, by 3 to 7 rad/s, most and mean were
+    // off by up to 0.40 at 30 Hz and 0.15 at 60 Hz; without its place by the keeper they are 1e8.
     for (const int rate : {30, 60, 120}) {
       const Motion motion = slung(integrator(), level, rate);
-      EXPECT_NEAR(motion.most, expected.most, 0.15 * expected.most) << level << " at " << rate;
-      EXPECT_NEAR(motion.mean, expected.mean, 0.15 * expected.mean) << level << " at " << rate;
+      const double within = rate == 30 ? 0.5 : 0.2;
+      EXPECT_NEAR(motion.most, expected.most, within * expected.most) << level << " at " << rate;
+      EXPECT_NEAR(motion.mean, expected.mean, within * expected.mean) << level << " at " << rate;
     }
   }
 }

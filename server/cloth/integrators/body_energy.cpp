@@ -46,6 +46,8 @@ void BodyEnergy<Real>::begin(const Particles<Real>& particles, const Forces<Real
   for (const Solid& solid : solids) mass += solid.yields() ? 1 / solid.inverse_mass : 0.0;
   pressed_ = mass * (standard_gravity() * dt).squaredNorm() / 2;
   start_ = particles.position;
+  if (first_.grid() != particles.grid()) first_ = VectorField<Real>(particles.grid());
+  forces.sum_effects(particles, first_);
 }
 
 template <class Real>
@@ -55,12 +57,16 @@ void BodyEnergy<Real>::judge(const Particles<Real>& particles, const Forces<Real
   const double gained = kinetic_energy(particles) + forces.sheet->energy(particles.position) - cloth_;
   if (gained <= kLeft * bodies_) return;
   const Grid& grid = particles.grid();
-  if (force_.grid() != grid) force_ = VectorField<Real>(grid);
-  forces.sum_effects(particles, force_);
-  const auto force = kernels::components(std::as_const(force_));
+  if (last_.grid() != grid) last_ = VectorField<Real>(grid);
+  forces.sum_effects(particles, last_);
+  const auto first = kernels::components(std::as_const(first_)),
+             last = kernels::components(std::as_const(last_));
   const auto from = kernels::components(std::as_const(start_)), to = kernels::components(particles.position);
   double work = 0;
-  for (std::size_t i = 0; i < grid.size(); ++i) work += std::abs(at(force, i).dot(at(to, i) - at(from, i)));
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Vec3 way = at(to, i) - at(from, i);
+    work += std::max(std::abs(at(first, i).dot(way)), std::abs(at(last, i).dot(way)));
+  }
   const double lost = bodies_ - kinetic_energy_of(solids);
   const double could_give = std::max(0.0, lost + work + kLeft * (cloth_ + bodies_ + pressed_));
   if (gained <= could_give) return;

@@ -31,7 +31,8 @@ class BodyEnergy {
   /// What standard gravity gives in the step to all that is at rest, J: the springs that keep things apart
   /// hold about as much where weights rest.
   double pressed_ = 0;
-  VectorField<Real> start_, force_;
+  VectorField<Real> start_;         ///< the nodes' places as the step begins, m
+  VectorField<Real> first_, last_;  ///< the effects' forces as it begins and ends, N
 };
 
 extern template class BodyEnergy<float>;

@@ -92,15 +92,20 @@ void Implicit<Real>::advance_together(std::span<Step> steps, double time, double
 }
 
 template <class Real>
-int Implicit<Real>::substeps_of(const Step& step, double dt) const {
+int Implicit<Real>::substeps_of(const Step& step, double dt) {
   const double asked = dt / parameters_.substeps;
   int parts = step.forces.rescued ? 1 : parts_in_strong_air(*step.particles, step.forces, asked);
   if (step.contact != nullptr) {
     const Vec2& size = step.forces.context.cloth->size;
     const Grid& grid = step.particles->grid();
     const double cell = std::min(size.x() / (grid.cols - 1), size.y() / (grid.rows - 1));
-    parts = std::max(parts,
-                     parts_beside_fast_solids(*step.particles, *step.contact, *step.solids, cell, asked, dt));
+    const VectorField<Real>* velocity = &step.particles->velocity;
+    if (step.forces.any_slow() && any_with_an_end(*step.solids)) {
+      find_velocity_in_air(*step.particles, step.forces, dt, in_air_);
+      velocity = &in_air_;
+    }
+    parts = std::max(parts, parts_beside_fast_solids(*step.particles, *velocity, *step.contact, *step.solids,
+                                                     cell, asked, dt));
   }
   return parameters_.substeps * parts;
 }

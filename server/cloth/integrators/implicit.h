@@ -140,7 +140,7 @@ class Implicit final : public Integrator<Real> {
   };
 
   /// As long as a step is, s, so many substeps it takes.
-  int substeps_of(const Step& step, double dt) const;
+  int substeps_of(const Step& step, double dt);
   void begin_step(Step& step, double dt);
   /// Lays out what depends on the springs for substeps of h seconds.
   void measure_sheet(const Sheet<Real>& sheet, const ClothDescription& cloth, const Field<Real>& mass,
@@ -203,6 +203,7 @@ class Implicit final : public Integrator<Real> {
   bool second_order_;
   std::optional<State> state_;
   std::optional<Memory> memory_;
+  VectorField<Real> in_air_;  ///< find_velocity_in_air of the step
   struct Surroundings {
     Contact<Real>* contact = nullptr;  ///< or none
     const std::vector<Solid>* solids = nullptr;

@@ -24,9 +24,9 @@ constexpr double kRoughFriction = 0.05;
 constexpr int kFrictionIterations = 5;
 /// The same for a sheet in contact with itself that lies on a solid.
 constexpr double kRoughHeap = 0.02;
-/// Further rounds that hold nodes of such a sheet which the last iteration has moved into a solid: projection
-/// after the step would add energy.
-constexpr int kHeapRounds = 4;
+/// Further rounds that hold nodes which the last iteration has moved into a solid: projection after the step
+/// would add energy.
+constexpr int kRounds = 4;
 /// Largest error of the linearisation in a single spring, in nodes' shares of the kinetic energy: a fold that
 /// runs through a stiff sheet would overstretch the few springs in it.
 constexpr double kRoughSpring = 8;
@@ -108,7 +108,7 @@ auto Implicit<Real>::iterate(std::span<Step> steps, SolveTarget& target, Take ta
     iterations = std::max(iterations, step.method->parameters_.newton_iterations);
     nodes += step.particles->grid().nodes();
   }
-  int heap_rounds = 0;
+  int rounds = 0;
   bool corrected = true;
   for (int left = iterations; left > -kSpareSearches; --left) {
     const LinearSolveReport solved = solve(steps, target, corrected);
@@ -168,9 +168,8 @@ auto Implicit<Real>::iterate(std::span<Step> steps, SolveTarget& target, Take ta
       return step.method->let_go(*step.particles) || enters(step);
     };
     if (!last && (!done || any(changes_hands))) continue;
-    if (!steps[0].forces.layered) break;
     const bool meet = layers != nullptr && hold_meeting(steps);
-    const bool enter = heap && heap_rounds++ < kHeapRounds && any(enters);
+    const bool enter = last && rounds++ < kRounds && any(enters);
     if (!meet && !enter) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }

@@ -198,23 +198,24 @@ void MomentumKeeper<Real>::go_on(Particles<Real>& particles, const Vec3& centre,
 
 template <class Real>
 double MomentumKeeper<Real>::end_substep(std::span<const Member> members, double h) {
+  if (std::any_of(members.begin(), members.end(),
+                  [](const Member& each) { return !each.keeper->now_.known; }))
+    return 1;
   const Member& first = members[0];
   const bool alone = members.size() == 1;
   Motion now = first.keeper->now_, before = first.keeper->before_, end = motion_of(*first.particles);
-  bool known = now.known, free = true, by_bdf2 = true, drawn = false;
+  bool free = true, by_bdf2 = true, drawn = false;
   for (const Member& member : members) {
     if (&member != &first) {
       now.join(member.keeper->now_);
       before.join(member.keeper->before_);
       end.join(motion_of(*member.particles));
     }
-    known = known && member.keeper->now_.known;
     free = free && !member.rubs && !member.freedom->is_none() && (alone || member.freedom->is_all());
     drawn = drawn || is_drawn(member);
     by_bdf2 = by_bdf2 && !touched_by_body(*member.solids, member.contact) &&
               member.keeper->all_by_bdf2(*member.solids, member.second_order);
   }
-  if (!known) return 1;
   const auto restart_all = [&] {
     for (const Member& member : members) member.keeper->restart();
   };

@@ -11,7 +11,19 @@ namespace weft {
 template <class Real>
 int parts_in_strong_air(const Particles<Real>& particles, const Forces<Real>& forces, double h);
 
+/// Sets `velocity`, m/s, to what the nodes will have after a step of `dt` seconds if nothing but the effects
+/// moves them. The air's force on a node falls to none as it comes to go with the air: that of drag, which
+/// goes by the square of the speed beside the air, gives a node at rest dt F / m / (1 + dt rate / 2), its
+/// damping rate being 2 F / (m speed).
+template <class Real>
+void find_velocity_in_air(const Particles<Real>& particles, const Forces<Real>& forces, double dt,
+                          VectorField<Real>& velocity);
+
 extern template int parts_in_strong_air(const Particles<float>&, const Forces<float>&, double);
 extern template int parts_in_strong_air(const Particles<double>&, const Forces<double>&, double);
+extern template void find_velocity_in_air(const Particles<float>&, const Forces<float>&, double,
+                                          VectorField<float>&);
+extern template void find_velocity_in_air(const Particles<double>&, const Forces<double>&, double,
+                                          VectorField<double>&);
 
 }  // namespace weft

@@ -10,7 +10,7 @@
 namespace weft::kernels {
 
 /// Scalars that are handled together; whole groups, so that no remainder is left to a scalar loop.
-inline constexpr int kLinkGroup = 16;
+inline constexpr int kLinkGroup = 8;
 
 inline int grouped(int cols) { return (cols + kLinkGroup - 1) / kLinkGroup * kLinkGroup; }
 

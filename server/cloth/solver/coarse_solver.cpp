@@ -1,6 +1,7 @@
 #include "cloth/solver/coarse_solver.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <utility>
 
 namespace weft {
@@ -8,14 +9,14 @@ namespace weft {
 template <class Real>
 struct CoarseSolver<Real>::Impl {
   Grid grid;
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> entries;  ///< of the lower triangle, which alone is read
+  std::vector<std::ptrdiff_t> slots;            ///< by entry: its place among the matrix's numbers
   Eigen::SparseMatrix<double> matrix;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
   Eigen::VectorXd right_hand_side, solution;
   std::vector<char> free;
   std::vector<int> unknowns;  ///< by node: the row of its first component; two that are sewn share it
   std::vector<int> unused;    ///< of the right nodes of pairs
-  bool analysed = false;
 
   Impl(const Grid& of, const Seam<Real>* seam) : grid(of), unknowns(of.size()) {
     for (int r = 0; r < grid.rows; ++r) {
@@ -31,23 +32,38 @@ struct CoarseSolver<Real>::Impl {
 
   void add(int row, int col, const Eigen::Matrix3d& block) {
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) entries.emplace_back(row + i, col + j, block(i, j));
+      for (int j = 0; j < 3; ++j) {
+        if (row + i >= col + j) entries.emplace_back(row + i, col + j, block(i, j));
+      }
     }
   }
 
+  /// The entries' sums. Which there are never changes: their places are found once.
+  void assemble() {
+    if (slots.empty()) {
+      matrix.setFromTriplets(entries.begin(), entries.end());
+      for (const auto& entry : entries) {
+        slots.push_back(&matrix.coeffRef(entry.row(), entry.col()) - matrix.valuePtr());
+      }
+      factors.analyzePattern(matrix);
+    }
+    matrix.coeffs().setZero();
+    for (std::size_t i = 0; i < entries.size(); ++i) matrix.valuePtr()[slots[i]] += entries[i].value();
+  }
+
   /// A link between the node at (r, c) and the one `rows` below and `cols` to the right. Fixed ends keep
-  /// their place in the pattern, so that it need not be analysed again.
+  /// their place in the pattern.
   void add_link(const kernels::Blocks<Real>& links, const Matrix& m, int r, int c, int rows, int cols) {
     if (r + rows >= grid.rows || c + cols >= grid.cols || c + cols < 0) return;
     const Eigen::Matrix3d block = block_at(links, grid.index(r, c));
-    const bool free_1 = m.free[grid.index(r, c)] > Real(0);
-    const bool free_2 = m.free[grid.index(r + rows, c + cols)] > Real(0);
+    const double free_1 = m.free[grid.index(r, c)] > Real(0) ? 1 : 0;
+    const double free_2 = m.free[grid.index(r + rows, c + cols)] > Real(0) ? 1 : 0;
     const int one = unknown(r, c), two = unknown(r + rows, c + cols);
-    const Eigen::Matrix3d coupling = free_1 && free_2 ? Eigen::Matrix3d(-block) : Eigen::Matrix3d::Zero();
-    if (free_1) add(one, one, block);
-    if (free_2) add(two, two, block);
-    add(one, two, coupling);
-    add(two, one, coupling);
+    const Eigen::Matrix3d coupling = -free_1 * free_2 * block;
+    add(one, one, free_1 * block);
+    add(two, two, free_2 * block);
+    add(std::max(one, two), std::min(one, two), coupling);
+    if (one == two) add(one, one, coupling);
   }
 
   /// The plate's stencils; fixed nodes keep their place as above.
@@ -59,6 +75,7 @@ struct CoarseSolver<Real>::Impl {
                             m.free[grid.index(two.row, two.col)] > Real(0);
           const double number = both ? stiffness * one.weight * two.weight : 0.0;
           const int row = unknown(one.row, one.col), col = unknown(two.row, two.col);
+          if (row < col) continue;
           for (int i = 0; i < 3; ++i) entries.emplace_back(row + i, col + i, number);
         }
       }
@@ -103,9 +120,7 @@ void CoarseSolver<Real>::factorise(const Matrix& m, const Plate<Real>* plate) {
   }
   for (const int row : s.unused) s.add(row, row, Eigen::Matrix3d::Identity());
   if (plate != nullptr) s.add_plate(*plate, m);
-  s.matrix.setFromTriplets(s.entries.begin(), s.entries.end());
-  if (!s.analysed) s.factors.analyzePattern(s.matrix);
-  s.analysed = true;
+  s.assemble();
   s.factors.factorize(s.matrix);
   s.free.assign(s.grid.size(), 0);
   for (std::size_t i = 0; i < s.free.size(); ++i) s.free[i] = m.free[i] > Real(0);

@@ -100,11 +100,11 @@ void ContactConstraints<Real>::sort_by_touch() {
 template <class Real>
 std::optional<Surface> ContactConstraints<Real>::plane_for(const Solid& solid, const Surface& near,
                                                            const Vec3& place, const Vec3& end) const {
-  if (solid.yields()) return near;
   const PlacedShape shape = solid.placed(substep_.to);
   const Vec3 begin = place + solid.move_of(place, substep_.from, substep_.to), way = end - begin;
   const Surface first = shape.surface(begin);
   if (first.normal.dot(near.normal) >= kTurned) return near;
+  if (first.distance <= 0 && solid.yields()) return near;
   if (first.distance <= 0) return Surface{first.distance + first.normal.dot(way), first.normal};
   const std::optional<Hit> hit = shape.first_hit(begin, end);
   if (!hit) return {};
@@ -115,8 +115,8 @@ template <class Real>
 Surface ContactConstraints<Real>::as_before(const Touch& touch, const Solid& solid, const Surface& near,
                                             const Vec3& end) const {
   if (!solid.yields_turning() || -near.distance <= touching_distance(substep_.seconds)) return near;
-  const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
-  if (same == last_.end() || same->touch != touch || same->released) return near;
+  const Constraint* same = as_last(touch);
+  if (same == nullptr || same->released) return near;
   const PlacedShape shape = solid.placed(substep_.to);
   const Vec3 normal = shape.rotation * same->face;
   if (near.normal.dot(normal) >= kTurned) return near;
@@ -128,8 +128,7 @@ template <class Real>
 auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real>& point, const Solid& solid,
                                        const Surface& surface, const Vec3& place, const Vec3& way) const
     -> Constraint {
-  const auto same = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
-  const bool held = same != last_.end() && same->touch == touch;
+  const Constraint* same = as_last(touch);
   const Vec3 move = solid.move_of(place, substep_.from, substep_.to), slip = way - move;
   const Vec3& normal = surface.normal;
   const double bears_from = solid.yields() ? 0 : margin();
@@ -146,7 +145,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
                   inner_radius(solid.shape),
                   solid.placed(substep_.to).rotation.transpose() * normal};
   // What meets it anew is led out to where the spring begins to bear, at no speed.
-  made.led_out = std::max(0.0, (held ? 0 : bears_from) - gap);
+  made.led_out = std::max(0.0, (same != nullptr ? 0 : bears_from) - gap);
   if (solid.yields()) {
     // A solid that yields is led out of the cloth as well, by the same spring, and keeps the speed.
     const double slowly = std::min(made.led_out, depth());
@@ -156,7 +155,7 @@ auto ContactConstraints<Real>::held_by(const Touch& touch, const ClothPoint<Real
   made.coefficient = solid.friction;
   const double pressed_in = solid.yields() ? 0 : std::max(0.0, made.distance - normal.dot(way));
   made.friction = SurfaceFriction(across(slip, normal), solid.friction * pressed_in);
-  if (held) {
+  if (same != nullptr) {
     made.last_force = same->force;
     made.stiffness = same->stiffness;
     made.force_before = same->last_force;
@@ -222,62 +221,6 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside,
   constraints_.insert(constraints_.end(), more.begin(), more.end());
   sort_by_touch();
   return true;
-}
-
-template <class Real>
-bool ContactConstraints<Real>::let_go_of_slid_off(const Particles<Real>& particles,
-                                                  const std::vector<Solid>& solids,
-                                                  kernels::Components<const Real> move,
-                                                  const AttachedBodies<Real>& bodies) {
-  const kernels::Components<const Real> position = kernels::components(particles.position);
-  const std::size_t before = not_held_.size();
-  for (const Constraint& c : constraints_) {
-    if (c.released) continue;
-    const Vec3 way = move_of(c, move, bodies);
-    if (!((way - c.solid_move).squaredNorm() > c.width * c.width)) continue;
-    const Solid& solid = solid_of(c.touch, solids);
-    const Vec3 start = c.point.of(position) - c.point.moved_by(move);
-    const bool off = is_off_side(solid.placed(substep_.to), start + way);
-    if (off && lay_on(solid, start)) not_held_.push_back(c.touch);
-  }
-  if (not_held_.size() == before) return false;
-  std::sort(not_held_.begin(), not_held_.end());
-  std::erase_if(constraints_, [&](const Constraint& c) {
-    return std::binary_search(not_held_.begin(), not_held_.end(), c.touch);
-  });
-  return true;
-}
-
-template <class Real>
-void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real> velocity) {
-  const auto room = [&](const Constraint& c) {
-    return substep_.seconds * c.normal.dot(c.point.moved_by(velocity)) - c.distance + margin();
-  };
-  const auto pinched = [&](const Constraint& a, const Constraint& b) {
-    return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
-  };
-  // Of two that stand still the one it is less deep in: there it was held while the other came.
-  const auto moves_least = [&](const Constraint& a, const Constraint& b) {
-    return std::pair(a.solid_move.squaredNorm(), -room(a)) < std::pair(b.solid_move.squaredNorm(), -room(b));
-  };
-  std::vector<Constraint> kept;
-  for (auto node = constraints_.begin(); node != constraints_.end();) {
-    const auto end = std::find_if(node, constraints_.end(), [&](const Constraint& c) {
-      return c.touch.point() != node->touch.point();
-    });
-    const bool stuck = std::any_of(node, end, [&](const Constraint& a) {
-      return std::any_of(node, end, [&](const Constraint& b) { return pinched(a, b); });
-    });
-    if (stuck) {
-      kept.push_back(*std::min_element(node, end, moves_least));
-      kept.back().pinched = true;
-      kept.back().distance -= margin();
-    } else {
-      kept.insert(kept.end(), node, end);
-    }
-    node = end;
-  }
-  constraints_.swap(kept);
 }
 
 template <class Real>

@@ -201,6 +201,7 @@ class ContactConstraints {
     double last_force = -1, force_before = -1;
     bool released = false;
     bool pinched = false;    ///< held both ways: another solid keeps the node from leaving this one
+    double squeezed = 0;     ///< by which that one reaches into this one there, m
     bool solved = false;     ///< in this substep, once
     double coefficient = 0;  ///< of friction
     SurfaceFriction friction{};
@@ -208,7 +209,8 @@ class ContactConstraints {
     template <class Archive>
     void serialize(Archive& archive) {
       archive(touch, point, body, arm, normal, distance, led_out, curves, solid_move, width, face, stiffness,
-              most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
+              most, force, last_force, force_before, released, pinched, squeezed, solved, coefficient,
+              friction);
     }
     /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
     double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }
@@ -228,6 +230,11 @@ class ContactConstraints {
     int body;
   };
   static bool is_before(const Constraint& c, const Touch& touch);
+  /// As it was in the last substep, or null.
+  const Constraint* as_last(const Touch& touch) const {
+    const auto last = std::lower_bound(last_.begin(), last_.end(), touch, is_before);
+    return last != last_.end() && last->touch == touch ? &*last : nullptr;
+  }
   void sort_by_touch();
   bool holds_already(const Touch& touch, const Vec3& normal) const;
   /// To which what usually presses a contact's spring presses it, and from where it bears, m.

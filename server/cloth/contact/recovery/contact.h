@@ -96,7 +96,13 @@ class Contact {
   /// if all go on as they go. Valid until the next call.
   const std::vector<Arrival>& foresee(
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
-      bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); });
+      bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); }) {
+    return foresee(particles, particles.velocity, solids, substep, sought);
+  }
+  /// The same, the nodes going with these velocities, m/s.
+  const std::vector<Arrival>& foresee(const Particles<Real>& particles, const VectorField<Real>& velocity,
+                                      const std::vector<Solid>& solids, const Substep& substep,
+                                      bool (*sought)(const Solid&));
 
   /// The free nodes that have passed the surface of a solid, wherever they are now, on their ways from
   /// `start`, where they were as the substep began. Of slow ones none: those are inside(). Valid until the

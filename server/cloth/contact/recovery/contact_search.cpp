@@ -13,7 +13,7 @@ namespace {
 
 bool stands_firm(const Solid& solid) { return !solid.yields(); }
 
-bool stands_firm_or_turns(const Solid& solid) { return !solid.yields() || solid.yields_turning(); }
+bool stands_firm_or_turns(const Solid&) { return true; }
 
 }  // namespace
 
@@ -76,17 +76,18 @@ void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorFi
 
 template <class Real>
 const std::vector<Arrival>& Contact<Real>::foresee(const Particles<Real>& particles,
+                                                   const VectorField<Real>& velocity,
                                                    const std::vector<Solid>& solids, const Substep& substep,
                                                    bool (*sought)(const Solid&)) {
   arrivals_.clear();
   if (std::none_of(solids.begin(), solids.end(), sought)) return arrivals_;
   const double h = substep.seconds;
-  const kernels::Components<const Real> velocity = kernels::components(particles.velocity);
+  const kernels::Components<const Real> v = kernels::components(velocity);
   const double longest =
-      h * std::sqrt(kernels::largest_square(velocity, velocity, Real(1), Real(0), particles.grid().size()));
+      h * std::sqrt(kernels::largest_square(v, v, Real(1), Real(0), particles.grid().size()));
   find_arrivals(
-      particles, particles.position, Way<Real>::by(particles.velocity, h), longest, 0,
-      [&](const auto& value) { return Vec3(h * value(velocity)); }, solids, substep, sought);
+      particles, particles.position, Way<Real>::by(velocity, h), longest, 0,
+      [&](const auto& value) { return Vec3(h * value(v)); }, solids, substep, sought);
   return arrivals_;
 }
 
@@ -204,6 +205,7 @@ template const std::vector<Touch>& Contact<float>::expect(const Particles<float>
 template const std::vector<Touch>& Contact<float>::inside(const Particles<float>&, const std::vector<Solid>&,
                                                           const Substep&);
 template const std::vector<Arrival>& Contact<float>::foresee(const Particles<float>&,
+                                                             const VectorField<float>&,
                                                              const std::vector<Solid>&, const Substep&,
                                                              bool (*)(const Solid&));
 template const std::vector<Arrival>& Contact<float>::passed(const Particles<float>&,
@@ -219,6 +221,7 @@ template const std::vector<Touch>& Contact<double>::expect(const Particles<doubl
 template const std::vector<Touch>& Contact<double>::inside(const Particles<double>&,
                                                            const std::vector<Solid>&, const Substep&);
 template const std::vector<Arrival>& Contact<double>::foresee(const Particles<double>&,
+                                                              const VectorField<double>&,
                                                               const std::vector<Solid>&, const Substep&,
                                                               bool (*)(const Solid&));
 template const std::vector<Arrival>& Contact<double>::passed(const Particles<double>&,

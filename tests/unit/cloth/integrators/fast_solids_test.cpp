@@ -29,7 +29,7 @@ int parts_beside(const Solid& solid, double speed, int substeps = 1, double cell
   Particles<double> sheet = test::flat_sheet<double>(17, 17, {2, 2});
   for (double& z : sheet.velocity.z.values()) z = speed;
   test::LooseContact<double> contact(sheet.grid());
-  return parts_beside_fast_solids(sheet, contact, {solid}, cell, kFrame / substeps, kFrame);
+  return parts_beside_fast_solids(sheet, sheet.velocity, contact, {solid}, cell, kFrame / substeps, kFrame);
 }
 
 // The longest way is a quarter of 0.1 m, or of a cell of 0.04 m; of so many parts the next power of two is
@@ -53,13 +53,36 @@ TEST(FastSolids, HaveNoPartsWhereNothingIsMet) {
   EXPECT_EQ(parts_beside(shot_ball(-59), 0), 1);
 }
 
-TEST(FastSolids, HaveNoPartsWhereTheyYieldOrHaveNoEnd) {
-  Solid dynamic = shot_ball(59);
-  dynamic.inverse_mass = 1;
-  EXPECT_EQ(parts_beside(dynamic, 0), 1);
+TEST(FastSolids, HaveNoPartsWhereTheyHaveNoEnd) {
   Solid wall = shot_ball(59);
   wall.shape = HalfSpace{};
   EXPECT_EQ(parts_beside(wall, 0), 1);
+}
+
+TEST(FastSolids, ThatYieldHaveSoManyPartsThatNoneIsPassedByMoreThanItsRadius) {
+  Solid dynamic = shot_ball(15);
+  dynamic.inverse_mass = 1;
+  EXPECT_EQ(parts_beside(dynamic, 0, 3), 1);  // 0.083 m of 0.1
+  EXPECT_EQ(parts_beside(dynamic, 0, 2), 2);  // 0.125 m
+  EXPECT_EQ(parts_beside(dynamic, 0), 4);     // 0.25 m
+}
+
+// A part n times as short gains an n^2-th of the way in it: so many that it is no more than a quarter of 0.1
+// m.
+TEST(FastSolids, HavePartsForWhatTheAirGivesInTheStep) {
+  const auto parts = [](double gained) {
+    Particles<double> sheet = test::flat_sheet<double>(17, 17, {2, 2});
+    VectorField<double> in_air(sheet.grid());
+    for (double& z : in_air.z.values()) z = -gained / kFrame;
+    test::LooseContact<double> contact(sheet.grid());
+    Solid ball = shot_ball(0);
+    ball.start.z() = ball.position.z() = -kShotRadius - 0.001;
+    return parts_beside_fast_solids(sheet, in_air, contact, {ball}, kShotCell, kFrame, kFrame);
+  };
+  EXPECT_EQ(parts(0.024), 1);
+  EXPECT_EQ(parts(0.026), 2);
+  EXPECT_EQ(parts(0.09), 2);  // 1.9^2 times 0.025 m
+  EXPECT_EQ(parts(0.11), 4);  // 2.1^2 times, and longer than the radius
 }
 
 TEST(FastSolids, GoOnInPartsWhileClothIsCarriedOutOfTheRest) {
@@ -74,10 +97,12 @@ TEST(FastSolids, GoOnInPartsWhileClothIsCarriedOutOfTheRest) {
   contact.resolve(sheet, solids, {0, 1, kFrame});
   ASSERT_EQ(contact.touches().size(), 1U);
   // (1 - 1 / 289) of 0.123 m, 4.9 times 0.025 m.
-  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kShotCell, kFrame / 8, kFrame), 8);
+  EXPECT_EQ(parts_beside_fast_solids(sheet, sheet.velocity, contact, {ball}, kShotCell, kFrame / 8, kFrame),
+            8);
   // All go with it.
   for (double& z : sheet.velocity.z.values()) z = 59;
-  EXPECT_EQ(parts_beside_fast_solids(sheet, contact, {ball}, kShotCell, kFrame / 8, kFrame), 1);
+  EXPECT_EQ(parts_beside_fast_solids(sheet, sheet.velocity, contact, {ball}, kShotCell, kFrame / 8, kFrame),
+            1);
 }
 
 }  // namespace
