@@ -78,7 +78,7 @@ TEST_P(LevelChange, ToACoarserOneLeavesClothOnItsRail) {
 }
 
 // Over the sharp edge of a box, and more so at its corner, a spring may stay hooked, whose pull the side face
-// bears: of 150 boxes drawn otherwise 3 have then more than 1.3 of the start's energy, up to 1.8.
+// bears: of 150 boxes drawn otherwise 3 have then more than 1.3 of the start's energy, up to 1.8 times.
 TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
   constexpr std::array<std::array<int, 2>, 3> kLevels{{{4, 6}, {4, 5}, {5, 6}}};
   int hooked = 0;
@@ -111,7 +111,7 @@ TEST_P(LevelChange, ToAFinerOneHardlyStretchesClothOnATable) {
     const std::string which = "table " + std::to_string(k) + ": " + std::to_string(width) + " m under " +
                               std::to_string(side) + " m, " + std::to_string(coarse) + " to " +
                               std::to_string(fine);
-    hooked += most > 1.3 * energy ? 1 : 0;
+    hooked += most > 1.3 * energy || simulation.report(0).strain.max > 0.5 ? 1 : 0;
     if (!round) continue;
     EXPECT_LT(most, energy * 1.001) << which;
     EXPECT_LT(simulation.report(0).strain.max, 0.03) << which;

@@ -46,34 +46,38 @@ SimulationDescription pressed(Draws& draws, const IntegratorDescription& integra
 
 struct InWind {
   double energy = 0;  ///< the most of the cloth, J
-  double strain = 0;
+  bool met = false;   ///< something
 };
 
 InWind most_in(const SimulationDescription& scene) {
-  constexpr int kBlownSteps = 12;
+  constexpr double kBlown = 0.3;  // s
   Simulation<float> simulation(scene);
   InWind most;
-  for (int step = 0; step < kBlownSteps; ++step) {
+  for (double time = 0; time < kBlown; time += scene.time_step) {
     simulation.step();
     most.energy = std::max(most.energy, state_energy(simulation).sum());
-    most.strain = std::max(most.strain, double(simulation.report(0).strain.max));
+    most.met = most.met || simulation.report(0).nodes_in_contact > 0;
   }
   return most;
 }
 
 class PressedByWind : public ImplicitMethod {};
 
-// What stands firm gives it nothing: it has no more energy than the wind gives it where nothing stands.
+// What stands firm gives it nothing: it has no more energy than the wind gives it where nothing stands, but
+// for rounding.
 TEST_P(PressedByWind, HasItsEnergyFromTheWindAlone) {
   Draws draws;
+  int met = 0;
   for (int k = 0; k < sample(48); ++k) {
     SimulationDescription scene = pressed(draws, integrator());
     const InWind beside = most_in(scene);
     scene.balls.clear();
     scene.obstacles.clear();
     const InWind alone = most_in(scene);
-    EXPECT_LT(beside.energy, 1.1 * alone.energy) << k;
+    EXPECT_LT(beside.energy, 1.001 * alone.energy) << k;
+    met += beside.met ? 1 : 0;
   }
+  EXPECT_GT(met, sample(48) * 3 / 4);
 }
 
 // Steps are hardly made again for a body that it is pressed onto: in 5 of 192 such scenes drawn otherwise.

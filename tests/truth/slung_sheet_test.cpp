@@ -1,5 +1,5 @@
-// A hand slings a loose sheet round by its corner, where there is no air: what it has of motion is what it
-// has in steps sixteen times as short, whatever the rate, the level and the method.
+// A hand slings a loose sheet round by its corner, where there is no air: what it has of motion is about what
+// it has in steps sixteen times as short.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -20,8 +20,9 @@ class BodyEnergy {
   void begin(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
              double dt);
   /// As it ends: reports if the cloth has gained more than the bodies and its effects, hands among them,
-  /// could give (AdvanceReport::gained). Never if something else may do work on it: pins, other solids that
-  /// move, other cloths, gas.
+  /// could give (AdvanceReport::gained); of the effects' forces at the step's begin and end those count that
+  /// do more work, as air's are gone at the end of a step that has brought the cloth up to its speed. Never
+  /// if something else may do work on it: pins, other solids that move, other cloths, gas.
   void judge(const Particles<Real>& particles, const Forces<Real>& forces, const std::vector<Solid>& solids,
              AdvanceReport& report);
 

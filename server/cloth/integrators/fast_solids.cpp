@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-constexpr int kMostParts = 16;
+constexpr int kMostPartsBeside = 16;
 /// The way of solid and cloth beside each other in a substep, of the solid's inner radius.
 constexpr double kWayBeside = 1;
 /// The same of a solid that moves, of its inner radius and of a cell.
@@ -17,8 +17,6 @@ constexpr double kWayBesideMoving = 0.25;
 /// The way that the step itself gives the cloth, of the solid's inner radius: nobody foresees what that
 /// strikes.
 constexpr double kWayGained = 0.25;
-
-bool has_an_end(const Solid& solid) { return !std::holds_alternative<HalfSpace>(solid.shape); }
 
 /// Of the free nodes, m/s.
 template <class Real>
@@ -37,7 +35,7 @@ Vec3 mean_of(const VectorField<Real>& velocity, const Particles<Real>& particles
 }  // namespace
 
 bool any_with_an_end(const std::vector<Solid>& solids) {
-  return std::any_of(solids.begin(), solids.end(), has_an_end);
+  return std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.has_an_end(); });
 }
 
 template <class Real>
@@ -52,7 +50,7 @@ int parts_beside_fast_solids(const Particles<Real>& particles, const VectorField
   };
   const auto may_be_fast = [&](const Solid& solid) {
     const double way = h * (fastest + (solid.position - solid.start).norm() / dt);
-    return has_an_end(solid) && way > std::min(longest(solid), kWayGained * inner_radius(solid.shape));
+    return solid.has_an_end() && way > std::min(longest(solid), kWayGained * inner_radius(solid.shape));
   };
   if (std::none_of(solids.begin(), solids.end(), may_be_fast)) return 1;
   const Vec3 mean = mean_of(velocity, particles);
@@ -62,8 +60,8 @@ int parts_beside_fast_solids(const Particles<Real>& particles, const VectorField
     // Of half as long a part each the first gives a quarter of it.
     const double least =
         std::max(way / longest(solid), std::sqrt(gained / (kWayGained * inner_radius(solid.shape))));
-    return static_cast<int>(
-        std::bit_ceil(static_cast<unsigned>(std::ceil(std::clamp(least, 1.0, double(kMostParts))))));
+    const double asked = std::min(std::max(1.0, std::ceil(least)), double(kMostPartsBeside));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(asked)));
   };
   int most = 1;
   for (const Solid& solid : solids) {
@@ -71,7 +69,8 @@ int parts_beside_fast_solids(const Particles<Real>& particles, const VectorField
                                      [&](const Touch& touch) { return touch.collider == solid.id; });
     if (touched && may_be_fast(solid)) most = std::max(most, parts(solid));
   }
-  for (const Arrival& arrival : contact.foresee(particles, velocity, solids, {0, 1, dt}, has_an_end))
+  for (const Arrival& arrival : contact.foresee(particles, velocity, solids, {0, 1, dt},
+                                                [](const Solid& solid) { return solid.has_an_end(); }))
     most = std::max(most, parts(solids[arrival.solid]));
   return most;
 }

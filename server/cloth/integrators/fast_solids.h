@@ -8,8 +8,8 @@ namespace weft {
 /// How many times as many substeps as usual an implicit step takes beside a solid: as many as it takes for
 /// cloth and solid not to pass each other in one by more than the solid's inner radius R, for one that moves
 /// by itself not to pass by more than a quarter of R or of a cell of the cloth, and for what the step itself
-/// gives the cloth's velocity not to take it farther than a quarter of R; at most kMostParts. Powers of two,
-/// so that they seldom change: BDF2 begins anew where they do.
+/// gives the cloth's velocity not to take it farther than a quarter of R; at most kMostPartsBeside. Powers of
+/// two, so that they seldom change: BDF2 begins anew where they do.
 ///
 /// Where the solid's surface faces changes within R. In a substep that is longer a node is held to one
 /// tangent plane all along, and drawn as far as the solid goes, where it would have slid off; its links then

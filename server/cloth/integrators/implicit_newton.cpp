@@ -169,7 +169,7 @@ auto Implicit<Real>::iterate(std::span<Step> steps, SolveTarget& target, Take ta
     };
     if (!last && (!done || any(changes_hands))) continue;
     const bool meet = layers != nullptr && hold_meeting(steps);
-    const bool enter = last && rounds++ < kRounds && any(enters);
+    const bool enter = last && report.brought_in <= 0 && rounds++ < kRounds && any(enters);
     if (!meet && !enter) break;
     left = std::max(left, kMoreIterations - kSpareIterations);
   }

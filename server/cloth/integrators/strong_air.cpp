@@ -24,7 +24,7 @@ void find_velocity_in_air(const Particles<Real>& particles, const Forces<Real>& 
                           VectorField<Real>& velocity) {
   const Grid& grid = particles.grid();
   if (velocity.grid() != grid) velocity = VectorField<Real>(grid);
-  forces.sum_effects(particles, velocity);
+  forces.sum_slow(particles, velocity);
   const double rate = forces.max_damping_rates(particles).slow;
   const Real lasts = static_cast<Real>(dt / (1 + dt * rate / 2));
   const Real* inverse_mass = particles.inverse_mass.row(0);

@@ -11,8 +11,8 @@ namespace weft {
 template <class Real>
 int parts_in_strong_air(const Particles<Real>& particles, const Forces<Real>& forces, double h);
 
-/// Sets `velocity`, m/s, to what the nodes will have after a step of `dt` seconds if nothing but the effects
-/// moves them. The air's force on a node falls to none as it comes to go with the air: that of drag, which
+/// Sets `velocity`, m/s, to what the nodes will have after a step of `dt` seconds if nothing but the air
+/// changes it. The air's force on a node falls to none as it comes to go with the air: that of drag, which
 /// goes by the square of the speed beside the air, gives a node at rest dt F / m / (1 + dt rate / 2), its
 /// damping rate being 2 F / (m speed).
 template <class Real>

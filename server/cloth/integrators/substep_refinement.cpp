@@ -77,9 +77,6 @@ int asked_by_tension(const Particles<Real>& particles, const Forces<Real>& force
   return asked;
 }
 
-/// Cloth may be drawn round it. By a wall it is struck all over, and stretched by nothing.
-bool has_an_end(const Solid& solid) { return !std::holds_alternative<HalfSpace>(solid.shape); }
-
 /// No point of it moves farther in the step, m.
 double farthest(const Solid& solid) {
   return (solid.position - solid.start).norm() + solid.turn.norm() * outer_radius(solid.shape);
@@ -98,10 +95,11 @@ int asked_by_strokes(const Particles<Real>& particles, double speed, const Sprin
   if (!std::isfinite(shortest)) return 1;
   double fastest = 0;  // m/s, of a solid
   for (const Solid& solid : solids) {
-    if (has_an_end(solid)) fastest = std::max(fastest, farthest(solid) / dt);
+    if (solid.has_an_end()) fastest = std::max(fastest, farthest(solid) / dt);
   }
   if (h * (speed + fastest) <= kStroke * shortest) return 1;  // spares what is slow the search
   int asked = 1;
+  const auto has_an_end = [](const Solid& solid) { return solid.has_an_end(); };
   for (const Arrival& arrival : contact.foresee(particles, solids, {0, 1, dt}, has_an_end)) {
     const double most = solids[arrival.solid].yields() ? kStroke : kFirmStroke;
     asked = std::max(asked, times(h * arrival.approach, most * shortest));

@@ -37,6 +37,8 @@ struct Solid {
     archive(id, rotation, friction, inverse_mass, inverse_inertia, just_put, mobile, start, position,
             velocity, turn, spin);
   }
+  /// Cloth may be drawn round it. By a wall it is struck all over, and stretched by nothing.
+  bool has_an_end() const { return !std::holds_alternative<HalfSpace>(shape); }
   /// Takes up what the cloth gives it.
   bool yields() const { return inverse_mass > 0; }
   /// Takes up what the cloth gives it by turning, too.

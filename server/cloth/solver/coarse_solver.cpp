@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace weft {
@@ -47,6 +48,7 @@ struct CoarseSolver<Real>::Impl {
       }
       factors.analyzePattern(matrix);
     }
+    assert(slots.size() == entries.size());
     matrix.coeffs().setZero();
     for (std::size_t i = 0; i < entries.size(); ++i) matrix.valuePtr()[slots[i]] += entries[i].value();
   }

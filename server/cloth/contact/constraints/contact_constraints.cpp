@@ -107,7 +107,7 @@ std::optional<Surface> ContactConstraints<Real>::plane_for(const Solid& solid, c
   if (first.distance <= 0 && solid.yields()) return near;
   if (first.distance <= 0) return Surface{first.distance + first.normal.dot(way), first.normal};
   const std::optional<Hit> hit = shape.first_hit(begin, end);
-  if (!hit) return {};
+  if (!hit) return solid.yields() ? std::optional(near) : std::nullopt;
   return Surface{(1 - hit->fraction) * hit->normal.dot(way), hit->normal};
 }
 
@@ -195,7 +195,7 @@ bool ContactConstraints<Real>::hold_inside(const std::vector<Touch>& inside,
     Constraint made = held_by(touch, point, solid, *plane, place - way, way);
     made.body = body_of(solid, solids, bodies);
     if (made.body) {
-      made.arm = place - plane->distance * plane->normal - solid.at(substep_.to);
+      if (solid.yields_turning()) made.arm = place - plane->distance * plane->normal - solid.at(substep_.to);
       const Vec3 gone = bodies.move(*made.body, made.arm);
       made.distance -= made.normal.dot(gone);
       made.solid_move -= gone;

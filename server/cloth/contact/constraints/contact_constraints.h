@@ -52,7 +52,8 @@ inline const Solid& solid_of(const Touch& touch, const std::vector<Solid>& solid
 ///
 /// A node must begin on the plane's outer side, or the plane pushes it on past where it came from, which does
 /// work. So the plane is that of the surface next to the way's end only if the surface turns but little from
-/// the way's begin until there (kTurned); else the one where the way enters, or where the node lies.
+/// the way's begin until there (kTurned); else the one where the way enters, or where the node lies. What
+/// begins inside a body, which another has moved there, is led out by the surface next to the way's end.
 template <class Real>
 class ContactConstraints {
  public:
@@ -201,7 +202,6 @@ class ContactConstraints {
     double last_force = -1, force_before = -1;
     bool released = false;
     bool pinched = false;    ///< held both ways: another solid keeps the node from leaving this one
-    double squeezed = 0;     ///< by which that one reaches into this one there, m
     bool solved = false;     ///< in this substep, once
     double coefficient = 0;  ///< of friction
     SurfaceFriction friction{};
@@ -209,8 +209,7 @@ class ContactConstraints {
     template <class Archive>
     void serialize(Archive& archive) {
       archive(touch, point, body, arm, normal, distance, led_out, curves, solid_move, width, face, stiffness,
-              most, force, last_force, force_before, released, pinched, squeezed, solved, coefficient,
-              friction);
+              most, force, last_force, force_before, released, pinched, solved, coefficient, friction);
     }
     /// The lesser of the last two forces, since one may be an impact's; 0 if there were not two, N.
     double usual_force() const { return std::max(0.0, std::min(last_force, force_before)); }

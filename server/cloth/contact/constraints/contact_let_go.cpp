@@ -1,6 +1,6 @@
 /// Whom ContactConstraints lets go: what slides off a solid's side, and of two solids that pinch a node one.
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "cloth/contact/constraints/contact_constraints.h"
 #include "cloth/contact/recovery/node_contact.h"
@@ -37,22 +37,13 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
   const auto room = [&](const Constraint& c) {
     return substep_.seconds * c.normal.dot(c.point.moved_by(velocity)) - c.distance + margin();
   };
-  const auto was_pinched = [&](const Constraint& c) {
-    const Constraint* last = as_last(c.touch);
-    return last != nullptr && last->pinched;
-  };
-  // What was held by one stays with it until neither margin reaches it any more: let go at once it would be
-  // squeezed out, drawn back and caught again for ever.
   const auto pinched = [&](const Constraint& a, const Constraint& b) {
-    if (a.body || b.body || a.normal.dot(b.normal) > kFacing) return false;
-    return room(a) + room(b) < (was_pinched(a) || was_pinched(b) ? 2 * margin() : 0);
+    return !a.body && !b.body && a.normal.dot(b.normal) <= kFacing && room(a) + room(b) < 0;
   };
-  // Of two that stand still that which held it, or the one it is less deep in: there it was held while the
-  // other came.
-  const auto order = [&](const Constraint& c) {
-    return std::tuple(c.solid_move.squaredNorm(), !was_pinched(c), -room(c));
+  // Of two that stand still the one it is less deep in: there it was held while the other came.
+  const auto moves_least = [&](const Constraint& a, const Constraint& b) {
+    return std::pair(a.solid_move.squaredNorm(), -room(a)) < std::pair(b.solid_move.squaredNorm(), -room(b));
   };
-  const auto moves_least = [&](const Constraint& a, const Constraint& b) { return order(a) < order(b); };
   std::vector<Constraint> kept;
   for (auto node = constraints_.begin(); node != constraints_.end();) {
     const auto end = std::find_if(node, constraints_.end(), [&](const Constraint& c) {
@@ -62,14 +53,8 @@ void ContactConstraints<Real>::let_go_of_pinched(kernels::Components<const Real>
       return std::any_of(node, end, [&](const Constraint& b) { return pinched(a, b); });
     });
     if (stuck) {
-      const auto least = std::min_element(node, end, moves_least);
-      double most = 0;
-      for (auto other = node; other != end; ++other) {
-        if (other->normal.dot(least->normal) <= kFacing) most = std::max(most, -room(*least) - room(*other));
-      }
-      kept.push_back(*least);
+      kept.push_back(*std::min_element(node, end, moves_least));
       kept.back().pinched = true;
-      kept.back().squeezed = most;
       kept.back().distance -= margin();
     } else {
       kept.insert(kept.end(), node, end);

@@ -58,7 +58,7 @@ double ContactConstraints<Real>::margin() const {
 template <class Real>
 double ContactConstraints<Real>::Constraint::force_at(const Vec3& moved) const {
   const double depth = distance - normal.dot(moved);
-  return released ? 0 : stiffness * (pinched ? std::abs(depth) + squeezed : std::max(0.0, depth));
+  return released ? 0 : stiffness * (pinched ? std::abs(depth) : std::max(0.0, depth));
 }
 
 /// Before a first solve of the substep by the usual force. A body's springs are so stiff that no solve tells

@@ -88,12 +88,11 @@ class Contact {
   /// substep's end if they go on with the velocity and the acceleration they have.
   const std::vector<Touch>& expect(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
-  /// The free nodes that are now in a solid that does not yield, or in a body, as it is at the substep's end.
-  /// Valid until the next call.
+  /// The free nodes that are now in a solid, as it is at the substep's end. Valid until the next call.
   const std::vector<Touch>& inside(const Particles<Real>& particles, const std::vector<Solid>& solids,
                                    const Substep& substep);
-  /// Before a substep: the free nodes that will pass the surface of a solid that is `sought`, or that yields,
-  /// if all go on as they go. Valid until the next call.
+  /// Before a substep: the free nodes that will pass the surface of a solid that is `sought`, as a rule of
+  /// one that yields, if all go on as they go. Valid until the next call.
   const std::vector<Arrival>& foresee(
       const Particles<Real>& particles, const std::vector<Solid>& solids, const Substep& substep,
       bool (*sought)(const Solid&) = [](const Solid& solid) { return solid.yields(); }) {

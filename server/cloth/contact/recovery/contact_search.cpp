@@ -13,7 +13,7 @@ namespace {
 
 bool stands_firm(const Solid& solid) { return !solid.yields(); }
 
-bool stands_firm_or_turns(const Solid&) { return true; }
+bool is_any(const Solid&) { return true; }
 
 }  // namespace
 
@@ -38,9 +38,7 @@ template <class Real>
 const std::vector<Touch>& Contact<Real>::inside(const Particles<Real>& particles,
                                                 const std::vector<Solid>& solids, const Substep& substep) {
   inside_.clear();
-  if (std::any_of(solids.begin(), solids.end(), stands_firm_or_turns)) {
-    find_inside(particles, particles.position, solids, substep, stands_firm_or_turns, inside_);
-  }
+  find_inside(particles, particles.position, solids, substep, is_any, inside_);
   return inside_;
 }
 
