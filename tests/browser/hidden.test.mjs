@@ -32,7 +32,7 @@ test('seen again, it goes on from where the viewer was', async () => {
   const after = await stats(page);
   assert.equal(after.scene, 'flag');
   after.eye.forEach((value, axis) => assert.ok(Math.abs(value - eye[axis]) < 1e-6, `eye at ${after.eye}, was at ${eye}`));
-  await until(page, () => weft.stats.cloths[0].level === 4);  // the server knows where the camera is
+  await until(page, () => weft.stats.cloths[0]?.level === 4);  // the server knows where the camera is
 });
 
 test('hidden and seen in one breath it is connected, once', async () => {
