@@ -18,6 +18,8 @@ Surface Box::nearest(const Vec3& point) const {
   return {distance, Vec3(outside.cwiseProduct(sign) / distance)};
 }
 
+bool Box::contains(const Vec3& point) const { return (point.cwiseAbs() - half).maxCoeff() < 0; }
+
 std::optional<Hit> Box::first_hit(const Vec3& from, const Vec3& way) const {
   // Slabs (Kay and Kajiya 1986).
   double enter = 0, leave = 1;

@@ -23,6 +23,10 @@ Surface Capsule::nearest(const Vec3& point) const {
   return {length - radius, length > 0 ? Vec3(across / length) : Vec3(1, 0, 0)};
 }
 
+bool Capsule::contains(const Vec3& point) const {
+  return (point - Vec3(0, std::clamp(point.y(), -half, half), 0)).squaredNorm() < radius * radius;
+}
+
 std::optional<Hit> Capsule::first_hit(const Vec3& from, const Vec3& way) const {
   // The first of: its two ends, as spheres; its side, as a circle across the axis.
   const Sphere end{radius};

@@ -9,6 +9,8 @@ namespace weft {
 
 Surface HalfSpace::nearest(const Vec3& point) const { return {point.y(), Vec3(0, 1, 0)}; }
 
+bool HalfSpace::contains(const Vec3& point) const { return point.y() < 0; }
+
 std::optional<Hit> HalfSpace::first_hit(const Vec3& from, const Vec3& way) const {
   if (!(way.y() < 0) || !(from.y() + way.y() <= 0)) return {};
   return Hit{std::max(0.0, from.y() / -way.y()), Vec3(0, 1, 0)};

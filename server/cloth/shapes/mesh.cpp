@@ -9,6 +9,8 @@ Surface Mesh::nearest(const Vec3& point) const {
   return {found.distance, found.normal};
 }
 
+bool Mesh::contains(const Vec3& point) const { return surface->contains(point); }
+
 std::optional<Hit> Mesh::first_hit(const Vec3& from, const Vec3& way) const {
   const std::optional<TriangleMesh::Crossing> entry = surface->first_entry(from, way);
   return entry ? std::optional<Hit>({entry->fraction, entry->normal}) : std::nullopt;

@@ -13,12 +13,10 @@ Surface PlacedShape::surface(const Vec3& point) const {
 }
 
 bool PlacedShape::contains(const Vec3& point) const {
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-    return mesh->surface->contains(rotation.transpose() * (point - centre));
-  }
-  const auto* sphere = std::get_if<Sphere>(&shape);
-  return sphere != nullptr ? (point - centre).squaredNorm() < sphere->radius * sphere->radius
-                           : surface(point).distance < 0;
+  const Vec3 arm = point - centre;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->contains(arm);  // however turned
+  const Vec3 local = rotation.transpose() * arm;
+  return std::visit([&](const auto& s) { return s.contains(local); }, shape);
 }
 
 std::optional<Hit> PlacedShape::first_hit(const Vec3& from, const Vec3& to) const {

@@ -44,6 +44,7 @@ struct Sphere {
   double radius = 0;  ///< m
 
   Surface nearest(const Vec3& point) const;
+  bool contains(const Vec3& point) const;
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
   double way_out(const Vec3& origin, const Vec3& direction) const;
   Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
@@ -58,6 +59,7 @@ struct Sphere {
 /// All below y = 0 of its own frame.
 struct HalfSpace {
   Surface nearest(const Vec3& point) const;
+  bool contains(const Vec3& point) const;
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
   double way_out(const Vec3& origin, const Vec3& direction) const;
   Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
@@ -74,6 +76,7 @@ struct Box {
   Vec3 half{0, 0, 0};  ///< half the lengths of its edges, m
 
   Surface nearest(const Vec3& point) const;
+  bool contains(const Vec3& point) const;
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
   double way_out(const Vec3& origin, const Vec3& direction) const;
   Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
@@ -91,6 +94,7 @@ struct Capsule {
   double radius = 0;  ///< m
 
   Surface nearest(const Vec3& point) const;
+  bool contains(const Vec3& point) const;
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
   double way_out(const Vec3& origin, const Vec3& direction) const;
   Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;
@@ -108,6 +112,7 @@ struct Mesh {
   const TriangleMesh* surface = nullptr;
 
   Surface nearest(const Vec3& point) const;
+  bool contains(const Vec3& point) const;
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& way) const;
   double way_out(const Vec3& origin, const Vec3& direction) const;
   Eigen::AlignedBox3d bounds(const Vec3& centre, const Eigen::Matrix3d& rotation) const;

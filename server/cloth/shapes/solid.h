@@ -9,6 +9,21 @@ namespace weft {
 using ColliderId = std::uint32_t;
 inline constexpr ColliderId kFirstObstacle = 0x8000'0000;
 
+/// How what goes with a solid moves in a part of a step.
+struct RigidMove {
+  Vec3 shift{0, 0, 0};   ///< of its centre, m
+  Vec3 centre{0, 0, 0};  ///< where that begins, m
+  bool turns = false;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+
+  /// How far a point goes that is at `point` as the part begins, m.
+  Vec3 of(const Vec3& point) const {
+    if (!turns) return shift;
+    const Vec3 arm = point - centre;
+    return shift + (turn * arm - arm);
+  }
+};
+
 /// What a cloth meets in a step: a shape on a straight way, perhaps turning as it goes. One that yields is
 /// the cloth's own copy: what the cloth gives it bends the way.
 struct Solid {
@@ -69,20 +84,19 @@ struct Solid {
   /// Centre at `fraction` (0..1) of the step.
   Vec3 at(double fraction) const { return start + fraction * (position - start); }
   PlacedShape placed(double fraction) const {
-    return {shape, at(fraction), turns() ? turned(fraction - 1) * rotation : rotation};
+    return {shape, at(fraction), turns() && fraction != 1 ? turned(fraction - 1) * rotation : rotation};
   }
   /// How far outside a node is that is at `node` when a part of the step begins at `from`, m; below 0 inside.
   double gap(const Vec3& node, double from) const;
   bool turns() const { return !turn.isZero(0); }
   bool moves() const { return position != start || !velocity.isZero(0) || turns(); }
-  /// How far a point goes that is at `point` at `from` and then goes with it, m.
-  Vec3 move_of(const Vec3& point, double from, double to) const {
-    Vec3 move = at(to) - at(from);
-    if (!turns()) return move;
-    const Vec3 arm = point - at(from);
-    move += turned(to - from) * arm - arm;
-    return move;
+  RigidMove move(double from, double to) const {
+    RigidMove made{at(to) - at(from), at(from), turns()};
+    if (made.turns) made.turn = turned(to - from);
+    return made;
   }
+  /// How far a point goes that is at `point` at `from` and then goes with it, m.
+  Vec3 move_of(const Vec3& point, double from, double to) const { return move(from, to).of(point); }
 
  private:
   /// What it turns by in that part of the step.

@@ -11,6 +11,8 @@ Surface Sphere::nearest(const Vec3& point) const {
   return {length - radius, length > 0 ? Vec3(point / length) : Vec3(0, 1, 0)};
 }
 
+bool Sphere::contains(const Vec3& point) const { return point.squaredNorm() < radius * radius; }
+
 std::optional<Hit> Sphere::first_hit(const Vec3& from, const Vec3& way) const {
   // |from + t way| = radius, the smaller root, in the form that loses no digits when the way is long.
   const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 #include "cloth/contact/recovery/node_contact.h"
 #include "cloth/contact/recovery/struck_rows.h"
@@ -24,8 +25,9 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     const double sweep = sweep_of(solid, substep);
     const bool fast = longest + sweep > kSlowMove * inner_radius(solid.shape);
     if (fast) reach = longest;
-    moving.push_back({&solid, solid.placed(substep.to), move, sweep, fast,
-                      kSlowMove * inner_radius(solid.shape), solid.velocity, solid.spin, substep});
+    moving.push_back({&solid, solid.placed(substep.to), move, sweep, 0, fast,
+                      kSlowMove * inner_radius(solid.shape), solid.velocity, solid.spin, substep,
+                      solid.move(substep.from, substep.to)});
   }
   const Sweep sweep{substep.from, substep.to, reach};
   std::vector<TileSolidPair> pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
@@ -55,6 +57,12 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
     if (NodeContact<Real>(state, id, may_meet, move).resolve(moving, touches_)) ++in_contact;
   }
   if (!between.empty()) pairs = broad_phase_.find_pairs(particles.position, solids, sweep);
+  const double farthest = between.empty() ? longest : way.longest(particles.position);
+  for (MovingSolid& each : moving) {
+    // A node is at most that much farther from its centre than what turns with it.
+    const double turn = (substep.to - substep.from) * each.solid->turn.norm();
+    each.reach = farthest + each.sweep + turn * (farthest + each.move.norm());
+  }
   may_meet.resize(solids.size());
   std::iota(may_meet.begin(), may_meet.end(), 0);
   for_each_struck(
@@ -62,7 +70,7 @@ int Contact<Real>::resolve(Particles<Real>& particles, std::vector<Solid>& solid
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t first) {
         return rows_struck(block, moving[static_cast<std::size_t>(pair.solid)], way, first);
       },
-      [&](int row, int col) {
+      [&](int row, int col, std::span<const std::size_t>) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const std::size_t i = particles.grid().index(row, col);
         const Vec3 move = way.move(particles.local_position_at(row, col), i);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/contact/recovery/struck_rows.h"
@@ -14,6 +15,13 @@ namespace {
 bool stands_firm(const Solid& solid) { return !solid.yields(); }
 
 bool is_any(const Solid&) { return true; }
+
+std::vector<PlacedShape> placed_at(const std::vector<Solid>& solids, double fraction) {
+  std::vector<PlacedShape> placed;
+  placed.reserve(solids.size());
+  for (const Solid& solid : solids) placed.push_back(solid.placed(fraction));
+  return placed;
+}
 
 }  // namespace
 
@@ -47,26 +55,26 @@ void Contact<Real>::find_inside(const Particles<Real>& particles, const VectorFi
                                 const std::vector<Solid>& solids, const Substep& substep,
                                 bool (*sought)(const Solid&), std::vector<Touch>& found) {
   const Sweep sweep{substep.to, substep.to, 0};
+  const std::vector<PlacedShape> placed = placed_at(solids, substep.to);
   const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(position, solids, sweep);
   for_each_struck(
       position, broad_phase_.tiles(), pairs, counters_,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
-        const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
-        return sought(solid) ? rows_inside(block, solid.placed(substep.to)) : std::uint32_t{0};
+        const auto i = static_cast<std::size_t>(pair.solid);
+        return sought(solids[i]) ? rows_inside(block, placed[i]) : std::uint32_t{0};
       },
-      [&](int row, int col) {
+      [&](int row, int col, std::span<const std::size_t> met) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const Vec3 place(double(position.x.at(row, col)), double(position.y.at(row, col)),
                          double(position.z.at(row, col)));
-        for (const Solid& solid : solids) {
-          if (!sought(solid) || !solid.placed(substep.to).contains(place)) continue;
-          found.push_back({particles.grid().index(row, col), solid.id});
+        for (const std::size_t i : met) {
+          if (placed[i].contains(place)) found.push_back({particles.grid().index(row, col), solids[i].id});
         }
       });
   for (const NearPoint& near : points_near(particles, position, pairs, solids, sweep)) {
     const Solid& solid = solids[near.solid];
     const Vec3 place = ClothPoint<Real>(near.point, particles).of(kernels::components(position));
-    if (!sought(solid) || !solid.placed(substep.to).contains(place)) continue;
+    if (!sought(solid) || !placed[near.solid].contains(place)) continue;
     found.push_back({near.point.node, solid.id, near.point.within});
   }
   check_interrupt(kWorkOfContact * static_cast<double>(found.size()));
@@ -115,16 +123,21 @@ void Contact<Real>::find_arrivals(const Particles<Real>& particles, const Vector
                                   const std::vector<Solid>& solids, const Substep& substep, Sought sought) {
   const kernels::Components<const Real> nodes = kernels::components(position);
   const Sweep sweep{substep.from, substep.to, longest};
+  const std::vector<PlacedShape> placed = placed_at(solids, substep.to);
+  std::vector<RigidMove> moves;
+  moves.reserve(solids.size());
+  for (const Solid& solid : solids) moves.push_back(solid.move(substep.from, substep.to));
   const std::vector<TileSolidPair>& pairs = broad_phase_.find_pairs(position, solids, sweep);
   const auto look = [&](const PointId& id, const Vec3& place, const Vec3& way, std::size_t i) {
     const Solid& solid = solids[i];
     // As seen from the solid where it will be.
-    Vec3 begin = place + solid.at(substep.to) - solid.at(substep.from);
-    if (solid.turns()) begin = place + solid.move_of(place, substep.from, substep.to);
+    const PlacedShape& shape = placed[i];
+    const Vec3 begin =
+        moves[i].turns ? Vec3(place + moves[i].of(place)) : Vec3(place + shape.centre - moves[i].centre);
     const Vec3 end = place + way;
     const double shortest = share * inner_radius(solid.shape);
-    if ((end - begin).squaredNorm() < shortest * shortest) return;
-    const PlacedShape shape = solid.placed(substep.to);
+    const double square = (end - begin).squaredNorm();
+    if (square < shortest * shortest || !shape.may_touch(begin, std::sqrt(square))) return;
     const std::optional<Hit> hit = shape.contains(begin) ? std::nullopt : shape.first_hit(begin, end);
     if (!hit) return;
     const double inward = (end - begin).dot(hit->normal);
@@ -139,20 +152,19 @@ void Contact<Real>::find_arrivals(const Particles<Real>& particles, const Vector
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
         if (!sought(solid)) return std::uint32_t{0};
         const auto* sphere = std::get_if<Sphere>(&solid.shape);
-        if (sphere == nullptr) return rows_near_way(block, solid, substep, longest);
+        if (sphere == nullptr)
+          return rows_near_way(block, solid, placed[static_cast<std::size_t>(pair.solid)], substep, longest);
         // The kernel looks at the way back: from where node and ball will be to where they are.
         const Vec3 place = solid.at(substep.from), back = place - solid.at(substep.to);
         return kernels::rows_swept(block, {ends.other + first, ends.own, ends.factor},
                                    {back.x(), back.y(), back.z()},
                                    {place.x(), place.y(), place.z(), sphere->radius * sphere->radius});
       },
-      [&](int row, int col) {
+      [&](int row, int col, std::span<const std::size_t> met) {
         if (particles.inverse_mass.at(row, col) == Real(0)) return;
         const std::size_t node = particles.grid().index(row, col);
         const Vec3 way = way_of([&](const kernels::Components<const Real>& c) { return at(c, node); });
-        for (std::size_t i = 0; i < solids.size(); ++i) {
-          if (sought(solids[i])) look({node}, at(nodes, node), way, i);
-        }
+        for (const std::size_t i : met) look({node}, at(nodes, node), way, i);
       });
   for (const NearPoint& near : points_near(particles, position, pairs, solids, sweep)) {
     if (!sought(solids[near.solid])) continue;
@@ -179,13 +191,16 @@ std::vector<NearPoint> Contact<Real>::pinned_near(const Particles<Real>& particl
       particles.position, broad_phase_.tiles(), pairs, counters_,
       [&](const TileSolidPair& pair, const kernels::NodeBlock<Real>& block, std::size_t) {
         const Solid& solid = solids[static_cast<std::size_t>(pair.solid)];
-        return solid.yields() ? rows_near_way(block, solid, step, reach) : std::uint32_t{0};
+        if (!solid.yields()) return std::uint32_t{0};
+        // Whatever bends its way may turn it, too.
+        const double way = (solid.at(step.to) - solid.at(step.from)).norm() + reach;
+        return kernels::rows_inside(
+            block, sphere_of(solid.placed(step.to), Sphere{outer_radius(solid.shape) + way}));
       },
-      [&](int row, int col) {
+      [&](int row, int col, std::span<const std::size_t> met) {
         if (particles.inverse_mass.at(row, col) != Real(0)) return;
         const Vec3 place = particles.local_position_at(row, col);
-        for (std::size_t i = 0; i < solids.size(); ++i) {
-          if (!solids[i].yields()) continue;
+        for (const std::size_t i : met) {
           const double way = (solids[i].at(step.to) - solids[i].at(step.from)).norm();
           if ((place - solids[i].at(step.to)).norm() > outer_radius(solids[i].shape) + way + reach) continue;
           found.push_back({{particles.grid().index(row, col)}, i});

@@ -99,7 +99,9 @@ auto NodeContact<Real>::first_meeting(const MovingSolid& moving) const -> std::o
   const int chords = moving.chords();
   Vec3 from = position_ - move_ + moving.move_of(start_, 0);
   if (moving.shape.contains(from)) return {};
-  if ((position_ - from).squaredNorm() < moving.grazing * moving.grazing) return {};
+  const double square = (position_ - from).squaredNorm();
+  if (square < moving.grazing * moving.grazing) return {};
+  if (chords == 1 && !moving.shape.may_touch(from, std::sqrt(square))) return {};
   for (int chord = 1; chord <= chords; ++chord) {
     const double share = static_cast<double>(chord) / chords;
     const Vec3 place = start_ + share * move_;

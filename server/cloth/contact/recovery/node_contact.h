@@ -26,11 +26,13 @@ struct MovingSolid {
   PlacedShape shape;  ///< at the substep's end
   Vec3 move;          ///< of its centre in the substep, m
   double sweep;       ///< the farthest that any of its points moves, m
+  double reach;       ///< beyond its surface what of the nodes it may have met is no farther, m
   bool fast;          ///< nodes might pass through it unseen: their ways are looked at
   double grazing;     ///< m; but for those that go less, as seen from it: at most they cut an edge
   Vec3 velocity;      ///< with what the nodes so far gave it, m/s
   Vec3 spin;          ///< the same, rad/s
   Substep substep;
+  RigidMove whole;  ///< in the substep
 
   /// Of what of it is at `point`, at the substep's end, m/s.
   Vec3 velocity_at(const Vec3& point) const {
@@ -38,6 +40,7 @@ struct MovingSolid {
   }
   /// How far what is at `point` after that share of the substep goes with it until its end, m.
   Vec3 move_of(const Vec3& point, double share) const {
+    if (share == 0) return whole.of(point);
     if (!solid->turns()) return (1 - share) * move;
     return solid->move_of(point, substep.from + share * (substep.to - substep.from), substep.to);
   }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -52,12 +53,23 @@ inline kernels::Sphere sphere_of(const PlacedShape& placed, const Sphere& sphere
   return {placed.centre.x(), placed.centre.y(), placed.centre.z(), sphere.radius * sphere.radius};
 }
 
-inline kernels::Stretch stretch_of(const PlacedShape& placed, const Capsule& capsule) {
+/// The capsule, and what is within `reach`, m, of it.
+inline kernels::Stretch stretch_of(const PlacedShape& placed, const Capsule& capsule, double reach = 0) {
   const Vec3 axis = placed.rotation.col(1), start = placed.centre - capsule.half * axis;
-  return {{start.x(), start.y(), start.z()},
-          {axis.x(), axis.y(), axis.z()},
-          2 * capsule.half,
-          capsule.radius * capsule.radius};
+  const double radius = capsule.radius + reach;
+  return {
+      {start.x(), start.y(), start.z()}, {axis.x(), axis.y(), axis.z()}, 2 * capsule.half, radius * radius};
+}
+
+/// The box, longer by `reach`, m, to all sides.
+inline kernels::OrientedBox oriented_box_of(const PlacedShape& placed, const Box& cuboid, double reach = 0) {
+  const Eigen::Matrix3d& axes = placed.rotation;
+  kernels::OrientedBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.axis[axis] = {axes(0, axis), axes(1, axis), axes(2, axis), axes.col(axis).dot(placed.centre)};
+    box.half[axis] = cuboid.half[axis] + reach;
+  }
+  return box;
 }
 
 /// Which of a block's rows have a node that perhaps touches the mesh: reach(index from the block's first) is
@@ -83,9 +95,8 @@ std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedSha
   if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
     return kernels::rows_inside(block, sphere_of(placed, *sphere));
   }
-  const Eigen::Matrix3d& axes = placed.rotation;
   if (std::holds_alternative<HalfSpace>(placed.shape)) {
-    const Vec3 normal = axes.col(1);
+    const Vec3 normal = placed.rotation.col(1);
     return kernels::rows_inside(
         block, kernels::Below{normal.x(), normal.y(), normal.z(), normal.dot(placed.centre)});
   }
@@ -94,12 +105,17 @@ std::uint32_t rows_inside(const kernels::NodeBlock<Real>& block, const PlacedSha
   }
   const auto* cuboid = std::get_if<Box>(&placed.shape);
   if (cuboid == nullptr) return rows_near(block, placed, [](const Vec3&, std::size_t) { return 0.0; });
-  kernels::OrientedBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.axis[axis] = {axes(0, axis), axes(1, axis), axes(2, axis), axes.col(axis).dot(placed.centre)};
-    box.half[axis] = cuboid->half[axis];
-  }
-  return kernels::rows_inside(block, box);
+  return kernels::rows_inside(block, oriented_box_of(placed, *cuboid));
+}
+
+/// Which of a block's rows have a node within `reach`, m, of the shape, and perhaps others.
+template <class Real>
+std::uint32_t rows_within(const kernels::NodeBlock<Real>& block, const PlacedShape& placed, double reach) {
+  if (const auto* capsule = std::get_if<Capsule>(&placed.shape))
+    return kernels::rows_inside(block, stretch_of(placed, *capsule, reach));
+  if (const auto* cuboid = std::get_if<Box>(&placed.shape))
+    return kernels::rows_inside(block, oriented_box_of(placed, *cuboid, reach));
+  return kernels::rows_inside(block, sphere_of(placed, Sphere{outer_radius(placed.shape) + reach}));
 }
 
 /// Which of a block's rows have a node in the solid, or, if it is fast, perhaps on a way through.
@@ -114,29 +130,35 @@ std::uint32_t rows_struck(const kernels::NodeBlock<Real>& block, const MovingSol
     });
   }
   const auto* sphere = std::get_if<Sphere>(&placed.shape);
-  if (sphere == nullptr) return ~std::uint32_t{0};
+  if (sphere == nullptr) return rows_within(block, placed, moving.reach);
   return kernels::rows_swept(block, {way.other + first, way.own, way.factor},
                              {moving.move.x(), moving.move.y(), moving.move.z()}, sphere_of(placed, *sphere));
 }
 
-/// Which of a block's rows have a node that perhaps meets the solid, no ball, in the substep: the nodes go
-/// `reach`, m, at most. Beyond the ball around it where it ends up and what both move none does.
+/// Which of a block's rows have a node that perhaps meets the solid, no ball, in the substep, at whose end it
+/// is `placed`: the nodes go `reach`, m, at most.
 template <class Real>
-std::uint32_t rows_near_way(const kernels::NodeBlock<Real>& block, const Solid& solid, const Substep& substep,
-                            double reach) {
-  const Vec3 place = solid.at(substep.to);
-  const double around = outer_radius(solid.shape) + (place - solid.at(substep.from)).norm() + reach;
-  return kernels::rows_inside(block, kernels::Sphere{place.x(), place.y(), place.z(), around * around});
+std::uint32_t rows_near_way(const kernels::NodeBlock<Real>& block, const Solid& solid,
+                            const PlacedShape& placed, const Substep& substep, double reach) {
+  constexpr double kSmallTurn = 0.5;  // rad
+  const double way = (placed.centre - solid.at(substep.from)).norm() + reach;
+  const double outer = outer_radius(solid.shape), turn = (substep.to - substep.from) * solid.turn.norm();
+  if (turn > kSmallTurn) return kernels::rows_inside(block, sphere_of(placed, Sphere{outer + way}));
+  // As seen from the solid a node at r from its centre goes that way and r times the turn. One that meets it
+  // has r <= outer + way + r turn.
+  return rows_within(block, placed, way + turn * (outer + way) / (1 - kSmallTurn));
 }
 
-/// Calls visit(row, col) for every node in those rows of the pairs' tiles that struck(pair, block, first
-/// node) finds for some solid: bit r for row r.
+/// Calls visit(row, col, met) for every node in those rows of the pairs' tiles that struck(pair, block, first
+/// node) finds for the solids `met`, ascending, at least one: bit r for row r.
 template <class Real, class Struck, class Visit>
 void for_each_struck(const VectorField<Real>& position, const std::vector<Tile>& tiles,
                      const std::vector<TileSolidPair>& pairs, ContactCounters& counters, Struck struck,
                      Visit visit) {
   const Grid& grid = position.grid();
   const kernels::Components<const Real> nodes = kernels::components(position);
+  std::vector<std::uint32_t> rows_found;
+  std::vector<std::size_t> met;
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].tile == pairs[begin].tile) ++end;
     const Tile& tile = tiles[static_cast<std::size_t>(pairs[begin].tile)];
@@ -147,12 +169,17 @@ void for_each_struck(const VectorField<Real>& position, const std::vector<Tile>&
     const int cols = (tile.col_end == grid.cols ? tile.col_end : tile.col_end - 1) - tile.col_begin;
     const std::size_t first = grid.index(tile.row_begin, tile.col_begin);
     const kernels::NodeBlock<Real> block{nodes + first, rows, grid.stride, cols};
-    std::uint32_t rows_found = 0;
-    for (std::size_t i = begin; i < end; ++i) rows_found |= struck(pairs[i], block, first);
+    rows_found.clear();
+    for (std::size_t i = begin; i < end; ++i) rows_found.push_back(struck(pairs[i], block, first));
     counters.nodes_tested += static_cast<std::uint64_t>(rows * cols);
     for (int r = 0; r < rows; ++r) {
-      if ((rows_found >> r & 1U) == 0) continue;
-      for (int c = 0; c < cols; ++c) visit(tile.row_begin + r, tile.col_begin + c);
+      met.clear();
+      for (std::size_t i = begin; i < end; ++i) {
+        if ((rows_found[i - begin] >> r & 1U) != 0) met.push_back(static_cast<std::size_t>(pairs[i].solid));
+      }
+      if (met.empty()) continue;
+      for (int c = 0; c < cols; ++c)
+        visit(tile.row_begin + r, tile.col_begin + c, std::span<const std::size_t>(met));
     }
   }
 }

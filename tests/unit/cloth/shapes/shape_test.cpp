@@ -121,6 +121,28 @@ TEST(ShapeFirstHit, OfACapsule) {
   EXPECT_FALSE(limb.first_hit({0, 0.51, -3}, {0, 0.51, 3}));      // along it, over it
 }
 
+TEST(ShapeSurface, ContainsWhatLiesBelowIt) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> place(-1.5, 1.5), angle(0, 6);
+  const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+  for (const Shape& shape :
+       {Shape(Sphere{1.1}), Shape(Box{{0.4, 0.8, 1.3}}), Shape(Capsule{0.5, 0.6}), Shape(HalfSpace{})}) {
+    int inside = 0;
+    constexpr int kPoints = 1000;
+    for (int trial = 0; trial < kPoints; ++trial) {
+      const PlacedShape placed{shape, point(),
+                               Eigen::AngleAxisd(angle(random), point().normalized()).toRotationMatrix()};
+      const Vec3 at = point();
+      const double distance = placed.surface(at).distance;
+      if (std::abs(distance) < 1e-12) continue;  // rounding decides
+      EXPECT_EQ(placed.contains(at), distance < 0) << shape.index();
+      inside += distance < 0 ? 1 : 0;
+    }
+    EXPECT_GT(inside, kPoints / 20);
+    EXPECT_LT(inside, kPoints - kPoints / 20);
+  }
+}
+
 TEST(ShapeFirstHit, LiesOnTheSurfaceWhateverTheWay) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-3, 3), angle(0, 6);
