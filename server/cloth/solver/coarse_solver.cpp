@@ -65,7 +65,6 @@ struct CoarseSolver<Real>::Impl {
     add(one, one, free_1 * block);
     add(two, two, free_2 * block);
     add(std::max(one, two), std::min(one, two), coupling);
-    if (one == two) add(one, one, coupling);
   }
 
   /// The plate's stencils; fixed nodes keep their place as above.

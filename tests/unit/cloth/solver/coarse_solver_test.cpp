@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <optional>
+#include <random>
 #include <type_traits>
 #include <utility>
 
@@ -57,6 +60,100 @@ TYPED_TEST(CoarseSolverOf, ALinkSharesWhatPullsApart) {
   EXPECT_LT((found(i) - found(j) - apart.inverse() * (pull_i - pull_j)).norm(), tolerance);
   EXPECT_NEAR(found(grid.index(1, 1)).x(), 2, tolerance);
   EXPECT_EQ(found(grid.index(2, 2)).norm(), 0);
+}
+
+/// A grid's matrix of random numbers, node (0, 1) fixed unless the grid is sewn, and the same as one dense
+/// matrix with the identity for what is fixed.
+struct RandomMatrix {
+  Grid grid = Grid::with_nodes(5, 5);
+  GridLevel<double, kernels::Blocks<double>> level{grid, false, nullptr};
+  Eigen::MatrixXd dense;
+  Eigen::VectorXd b;
+
+  /// The row of the node's first component.
+  static Eigen::Index row(int r, int c) { return 3 * (r * 5 + c); }
+
+  RandomMatrix(std::uint64_t seed, bool sewn) : dense(Eigen::MatrixXd::Zero(75, 75)), b(75) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto is_free = [&](int r, int c) { return sewn || r != 0 || c != 1; };
+    for (int r = 0; r < 5; ++r) {
+      for (int c = 0; c < 5; ++c) {
+        const std::size_t i = grid.index(r, c);
+        level.free()[i] = is_free(r, c) ? 1 : 0;
+        level.diagonal()[i] = 1.5 + number(random);
+        dense.block<3, 3>(row(r, c), row(r, c)).diagonal().array() += is_free(r, c) ? level.diagonal()[i] : 1;
+        for (Eigen::Index k = 0; k < 3; ++k) b[row(r, c) + k] = number(random);
+        level.b.x[i] = b[row(r, c)];
+        level.b.y[i] = b[row(r, c) + 1];
+        level.b.z[i] = b[row(r, c) + 2];
+        if (!is_free(r, c)) b.segment<3>(row(r, c)).setZero();
+        const auto join = [&](const kernels::Blocks<double>& links, int rows, int cols) {
+          if (r + rows > 4 || c + cols > 4 || c + cols < 0) return;
+          const Eigen::Matrix3d any = Eigen::Matrix3d::NullaryExpr([&] { return number(random); });
+          const Eigen::Matrix3d link = any * any.transpose();
+          links.xx[i] = link(0, 0);
+          links.xy[i] = link(0, 1);
+          links.xz[i] = link(0, 2);
+          links.yy[i] = link(1, 1);
+          links.yz[i] = link(1, 2);
+          links.zz[i] = link(2, 2);
+          const Eigen::Index one = row(r, c), two = row(r + rows, c + cols);
+          const bool free_one = is_free(r, c), free_two = is_free(r + rows, c + cols);
+          if (free_one) dense.block<3, 3>(one, one) += link;
+          if (free_two) dense.block<3, 3>(two, two) += link;
+          if (!free_one || !free_two) return;
+          dense.block<3, 3>(one, two) -= link;
+          dense.block<3, 3>(two, one) -= link;
+        };
+        join(level.matrix.links.along_u, 0, 1);
+        join(level.matrix.links.along_v, 1, 0);
+        join(level.matrix.links.falling, 1, 1);
+        join(level.matrix.links.rising, 1, -1);
+      }
+    }
+  }
+  /// Of the solver's x and that of the dense system with every seam's two nodes as one, the largest
+  /// difference.
+  double difference(const Seam<double>* seam) const {
+    Eigen::MatrixXd joins = Eigen::MatrixXd::Identity(75, 75);
+    if (seam != nullptr) {
+      for (const auto& [left, right] : seam->pairs()) {
+        const auto row_of = [&](std::size_t node) {
+          return row(static_cast<int>(node) / grid.stride, static_cast<int>(node) % grid.stride);
+        };
+        joins.block<3, 3>(row_of(right), row_of(right)).setZero();
+        joins.block<3, 3>(row_of(right), row_of(left)).setIdentity();
+      }
+    }
+    Eigen::MatrixXd joined = joins.transpose() * dense * joins;
+    for (Eigen::Index k = 0; k < 75; ++k) joined(k, k) += joined(k, k) == 0 ? 1 : 0;  // the right nodes' own
+    const Eigen::VectorXd expected = joins * joined.ldlt().solve(joins.transpose() * b);
+    double most = 0;
+    for (int r = 0; r < 5; ++r) {
+      for (int c = 0; c < 5; ++c) {
+        const std::size_t i = grid.index(r, c);
+        const Vec3 found(level.x.x[i], level.x.y[i], level.x.z[i]);
+        most = std::max(most, (found - Vec3(expected.segment<3>(row(r, c)))).cwiseAbs().maxCoeff());
+      }
+    }
+    return most;
+  }
+};
+
+// One solver takes up the numbers of one matrix after another, each solved as a dense one is.
+TEST(CoarseSolver, SolvesEachMatrixThatItTakesUp) {
+  for (const bool sewn : {false, true}) {
+    std::optional<Seam<double>> seam;
+    if (sewn) seam.emplace(Grid::with_nodes(5, 5));
+    CoarseSolver<double> solver(Grid::with_nodes(5, 5), sewn ? &*seam : nullptr);
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      RandomMatrix matrix(seed, sewn);
+      solver.factorise(matrix.level.matrix, nullptr);
+      solver.solve(matrix.level.b, matrix.level.x);
+      EXPECT_LT(matrix.difference(sewn ? &*seam : nullptr), 1e-12) << sewn << seed;
+    }
+  }
 }
 
 }  // namespace
