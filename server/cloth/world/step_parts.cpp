@@ -6,9 +6,9 @@
 namespace weft {
 namespace {
 
-/// Longest parts where cloth touches cloth, s: of an implicit step of one cloth, of others, and of explicit
-/// ones among several cloths; what is longer by a tenth of a part is rounding.
-constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kLongestInTurn = 1.0 / 240, kRounding = 0.1;
+/// Longest parts where cloth touches cloth, s: of an implicit step of one cloth, of several, and of an
+/// explicit step; what is longer by a tenth of a part is rounding.
+constexpr double kLongest = 1.0 / 30, kLongestApart = 1.0 / 60, kLongestExplicit = 1.0 / 240, kRounding = 0.1;
 /// Farthest that cloths go past each other in a part, in cells, and most parts made for that.
 constexpr double kMostCells = 4, kMostForCells = 4;
 /// Farthest that pins go in a part, as a part of the cloth's larger side, and most parts made for that.
@@ -18,9 +18,8 @@ constexpr double kMostOfRadius = 0.25, kMostForBodies = 4;
 
 template <class Real>
 double parts_for_contact(const Cloth<Real>& cloth, bool alone, double dt) {
-  const bool implicit = cloth.steps_implicitly();
-  if (alone) return dt / (implicit ? kLongest : kLongestApart);
-  return dt / (implicit ? kLongestApart : kLongestInTurn);
+  if (!cloth.steps_implicitly()) return dt / kLongestExplicit;
+  return dt / (alone ? kLongest : kLongestApart);
 }
 
 template <class Real>

@@ -11,8 +11,8 @@ namespace weft {
 /// Where cloths touch, in `layers` if there are any, each learns only once a step what the others and the
 /// hands do, and what may meet in the step is predicted, worse the longer the step is. Parts are at most
 /// 1/30 s long for the implicit steps of a single cloth, which finds all of it together; 1/60 s for those of
-/// several cloths and for explicit steps of one; 1/240 s for explicit steps of several cloths, which yield to
-/// each other in every substep.
+/// several cloths; 1/240 s for explicit steps, whose layers and cloths yield to each other in every substep,
+/// by straight ways that were predicted as the part began.
 ///
 /// Where one cloth moves past another, a step holds the few pairs of features that it predicts, and the net
 /// has to stop the others: in a part the cloths move past each other by at most 4 cells, up to 4 parts.

@@ -2,6 +2,10 @@
 // looked at.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
+#include <vector>
+
 #include "cloth/contact/recovery/contact.h"
 #include "cloth/contact/search/broad_phase.h"
 #include "cloth/shapes/solid.h"
@@ -217,6 +221,56 @@ TYPED_TEST(Contacts, TheBallGetsTheMomentumTheClothLoses) {
   ASSERT_GT(contact.resolve(sheet, balls, {0.0, 1.0}), 50);
   EXPECT_GT((balls[0].velocity - Vec3(0, 1, 2)).norm(), 0.01 / kMass);
   EXPECT_LT((linear_momentum(sheet) + kMass * balls[0].velocity - before).norm(), 4 * this->kRounding);
+}
+
+// --- What is found and left where it is ---
+
+TYPED_TEST(Contacts, InsideADynamicBallIsAsThatIsAtTheSubstepsEnd) {
+  // A ball of 0.5 m on its way up from z = -2 m to -0.25 m: node (4,4) at the origin is in it at the step's
+  // end, and not before 6 / 7 of its way.
+  const Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  std::vector<Solid> balls{solid_ball({0, 0, -0.25}, 0.5)};
+  balls[0].start = {0, 0, -2};
+  balls[0].inverse_mass = 1;
+  test::LooseContact<TypeParam> contact(sheet.grid());
+  EXPECT_EQ(contact.inside(sheet, balls, {0, 0.75, 0.01}), std::vector<Touch>{});
+  const Touch touch{sheet.grid().index(4, 4), balls[0].id};
+  EXPECT_EQ(contact.inside(sheet, balls, {0.75, 1, 0.01}), std::vector<Touch>{touch});
+  EXPECT_EQ(contact.counters().nodes_in_contact, 0U) << "it resolves nothing";
+}
+
+TYPED_TEST(Contacts, InsideASmallBallIsAPointBetweenNodes) {
+  // In the middle of a cell that is wider than the ball, 4 / 8 along either side.
+  const Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  const Vec3 middle = (sheet.local_position_at(4, 4) + sheet.local_position_at(5, 5)) / 2;
+  std::vector<Solid> balls{solid_ball(middle, 0.05)};
+  balls[0].inverse_mass = 1;
+  Contact<TypeParam> contact(sheet.grid());
+  const Touch touch{sheet.grid().index(4, 4), balls[0].id, 4 * kCellParts + 4};
+  EXPECT_EQ(contact.inside(sheet, balls, {0, 1, 0.01}), std::vector<Touch>{touch});
+  balls[0].position = balls[0].start = middle + Vec3(0, 0, 0.06);
+  EXPECT_EQ(contact.inside(sheet, balls, {0, 1, 0.01}), std::vector<Touch>{});
+}
+
+TYPED_TEST(Contacts, ExpectedAreFreeNodesInWhatStandsFirm) {
+  // Each ball's top is 0.1 m below a node: v = -8 m/s takes one 0.08 m down in 10 ms, with a = -300 m/s2
+  // 0.03 m farther, in. So it does over a ball that yields; alone it does not over another that stands firm,
+  // and a pinned node goes nowhere.
+  Particles<TypeParam> sheet = test::flat_sheet<TypeParam>(9, 9, {8, 8});
+  std::vector<Solid> balls;
+  for (const int col : {1, 3, 5, 7}) {
+    balls.push_back(solid_ball(sheet.local_position_at(4, col) - Vec3(0, 0, 0.3), 0.2));
+    balls.back().id = static_cast<ColliderId>(balls.size());
+    set(sheet.velocity, 4, col, {0, 0, -8});
+    set(sheet.acceleration, 4, col, {0, 0, -300});
+  }
+  balls[1].inverse_mass = 1;
+  set(sheet.acceleration, 4, 5, {0, 0, 0});
+  sheet.inverse_mass.at(4, 7) = 0;
+  test::LooseContact<TypeParam> contact(sheet.grid());
+  const Touch touch{sheet.grid().index(4, 1), balls[0].id};
+  for (int again = 0; again < 2; ++again)
+    EXPECT_EQ(contact.expect(sheet, balls, {0, 1, 0.01}), std::vector<Touch>{touch}) << "once each";
 }
 
 // --- Only struck tiles are looked at ---

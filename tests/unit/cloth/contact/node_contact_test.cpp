@@ -39,8 +39,8 @@ class OneNode {
   /// After a substep in which it went by its velocity. `fast`: its way is looked at.
   bool resolve(bool fast = false) {
     const std::vector<Touch> none;
-    solids_ = {{&solid_, solid_.placed(1), Vec3(0, 0, 0), 0, fast, 0, solid_.velocity, solid_.spin,
-                Substep{0, 1, kNodeStep}}};
+    solids_ = {{&solid_, solid_.placed(1), Vec3(0, 0, 0), 0, 0, fast, 0, solid_.velocity, solid_.spin,
+                Substep{0, 1, kNodeStep}, solid_.move(0, 1)}};
     const NodeContact<double>::State state{sheet_, nullptr, false, none, none};
     const std::vector<std::size_t> may_meet = {0};
     return NodeContact<double>(state, {sheet_.grid().index(1, 1)}, may_meet, kNodeStep * velocity())

@@ -65,7 +65,8 @@ struct Pull : Effect<double> {
 // loses and a twentieth of what there is.
 TEST(BodyEnergy, AForceAtEitherEndOfTheStepMayHaveWorked) {
   const double least = 5 + 0.05 * (9 + 0.5 * 2.4 * 9.81 * 9.81 * kStep * kStep);
-  for (const auto& [first, last] : {std::pair(2.0, 0.0), std::pair(0.0, 2.0), std::pair(-2.0, 1.0)}) {
+  for (const auto& [first, last] :
+       {std::pair(2.0, 0.0), std::pair(0.0, 2.0), std::pair(-2.0, 1.0), std::pair(1.0, -2.0)}) {
     SheetAndBall scene;
     auto owned = std::make_unique<Pull>();
     Pull& pull = *owned;

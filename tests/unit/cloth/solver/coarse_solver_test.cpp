@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <optional>
 #include <random>
 #include <type_traits>
 #include <utility>
 
 #include "cloth/core/vec3.h"
+#include "cloth/sheet/plate.h"
+#include "cloth/sheet/seam.h"
 #include "cloth/solver/grid_level.h"
 
 namespace weft {
@@ -71,7 +74,7 @@ struct RandomMatrix {
   Eigen::VectorXd b;
 
   /// The row of the node's first component.
-  static Eigen::Index row(int r, int c) { return 3 * (r * 5 + c); }
+  static Eigen::Index row(int r, int c) { return Eigen::Index{3} * (r * 5 + c); }
 
   RandomMatrix(std::uint64_t seed, bool sewn) : dense(Eigen::MatrixXd::Zero(75, 75)), b(75) {
     std::mt19937_64 random(seed);
@@ -153,6 +156,46 @@ TEST(CoarseSolver, SolvesEachMatrixThatItTakesUp) {
       solver.solve(matrix.level.b, matrix.level.x);
       EXPECT_LT(matrix.difference(sewn ? &*seam : nullptr), 1e-12) << sewn << seed;
     }
+  }
+}
+
+// A plate's stencils, stiffness * w w^T of their nodes' weights w, and blocks at the nodes are a part of the
+// matrix, whichever stiffness comes second; fixed nodes are not.
+TEST(CoarseSolver, SolvesWithAPlateAndBlocks) {
+  CoarseSolver<double> solver(Grid::with_nodes(5, 5), nullptr);
+  for (const std::uint64_t seed : {1U, 2U}) {
+    RandomMatrix matrix(seed, false);
+    const Grid& grid = matrix.grid;
+    Field<double> inverse_mass(grid);
+    inverse_mass.fill(1);
+    inverse_mass.at(0, 1) = 0;
+    const auto stiffness = static_cast<double>(seed);
+    const Plate<double> plate({stiffness, 2 * stiffness, 3 * stiffness}, {1, 1}, inverse_mass);
+    matrix.level.use_blocks(true);
+    const auto is_fixed = [](int r, int c) { return r == 0 && c == 1; };
+    for (int r = 0; r < 5; ++r) {
+      for (int c = 0; c < 5; ++c) {
+        const kernels::Blocks<double>& blocks = matrix.level.matrix.blocks;
+        const std::size_t i = grid.index(r, c);
+        blocks.xx[i] = 2 + r;
+        blocks.yz[i] = 0.5;
+        blocks.yy[i] = blocks.zz[i] = 1 + c;
+        if (is_fixed(r, c)) continue;
+        auto block = matrix.dense.block<3, 3>(RandomMatrix::row(r, c), RandomMatrix::row(r, c));
+        block += Eigen::Matrix3d{{2.0 + r, 0, 0}, {0, 1.0 + c, 0.5}, {0, 0.5, 1.0 + c}};
+      }
+    }
+    plate.for_each_stencil([&](double resists, const auto& nodes) {
+      Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(75, 3);
+      for (const auto& node : nodes) {
+        if (node.weight == 0 || is_fixed(node.row, node.col)) continue;
+        weights.block<3, 3>(RandomMatrix::row(node.row, node.col), 0).diagonal().array() += node.weight;
+      }
+      matrix.dense += resists * weights * weights.transpose();
+    });
+    solver.factorise(matrix.level.matrix, &plate);
+    solver.solve(matrix.level.b, matrix.level.x);
+    EXPECT_LT(matrix.difference(nullptr), 1e-11) << seed;
   }
 }
 
