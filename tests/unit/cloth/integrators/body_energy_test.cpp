@@ -65,7 +65,7 @@ struct Pull : Effect<double> {
 // loses and a twentieth of what there is.
 TEST(BodyEnergy, AForceAtEitherEndOfTheStepMayHaveWorked) {
   const double least = 5 + 0.05 * (9 + 0.5 * 2.4 * 9.81 * 9.81 * kStep * kStep);
-  for (const auto& [first, last] :
+  for (const std::pair<double, double>& forces :
        {std::pair(2.0, 0.0), std::pair(0.0, 2.0), std::pair(-2.0, 1.0), std::pair(1.0, -2.0)}) {
     SheetAndBall scene;
     auto owned = std::make_unique<Pull>();
@@ -73,10 +73,10 @@ TEST(BodyEnergy, AForceAtEitherEndOfTheStepMayHaveWorked) {
     scene.rig.effects.push_back(std::move(owned));
     const auto step = [&](double speed) {
       scene.solids[0].velocity = {3, 0, 0};
-      pull.force = first;
+      pull.force = forces.first;
       scene.energy.begin(scene.rig.particles, scene.rig.forces(0), scene.solids, kStep);
       scene.solids[0].velocity = {2, 0, 0};
-      pull.force = last;
+      pull.force = forces.second;
       test::each_node(scene.rig.particles.grid(), [&](int r, int c) {
         scene.rig.particles.position.x.at(r, c) += 1;
         test::set(scene.rig.particles.velocity, r, c, {speed, 0, 0});
@@ -88,8 +88,9 @@ TEST(BodyEnergy, AForceAtEitherEndOfTheStepMayHaveWorked) {
       });
       return report;
     };
-    EXPECT_EQ(step(std::sqrt((least + 1.9) / 0.2)).gained, 0) << first << ' ' << last;
-    EXPECT_NEAR(step(std::sqrt((least + 2.1) / 0.2)).could_give, least + 2, 1e-9) << first << ' ' << last;
+    EXPECT_EQ(step(std::sqrt((least + 1.9) / 0.2)).gained, 0) << forces.first << ' ' << forces.second;
+    EXPECT_NEAR(step(std::sqrt((least + 2.1) / 0.2)).could_give, least + 2, 1e-9)
+        << forces.first << ' ' << forces.second;
   }
 }
 
